@@ -9,8 +9,8 @@
 
 namespace ilf {
 
-/// The path of `relative` inside the test data (IF_TEST_DATA, by default ../shared/data beside the repository). Without it:
-/// says so aloud and gives nothing; the case then returns.
+/// The path of `relative` inside the test data (IF_TEST_DATA, by default ../shared/data beside the repository). Without
+/// it: says so aloud and gives nothing; the case then returns.
 ///
 ///     const auto picture = testData("02_depth/desk.png");
 ///     if (!picture) return;
