@@ -1,0 +1,53 @@
+#!/bin/bash
+# Installs what is missing, builds, and opens the studio. ./run.sh --help says more.
+set -euo pipefail
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+sample="$root/projects/samples/museum-guide.ilfd"
+
+usage() {
+    cat <<END
+Usage: ./run.sh                    open the studio on the museum sample, with simulated devices
+       ./run.sh --headless [FILE]  no window: plan, compile and play FILE (the museum sample) for 2 s on a simulated core;
+                                   pictures and report go to ./results
+       ./run.sh ARGUMENTS...       pass ARGUMENTS to the studio: a project or picture, or a command such as
+                                   plan, render, validate, run, --list-bindings, --version
+Without a display ./run.sh does what --headless does. The exit code is the program's:
+0 done, 1 failed, 2 usage, 3 device, 4 unsafe plan.
+END
+}
+if [ "${1:-}" = "--help" ] || [ "${1:-}" = "-h" ]; then
+    usage
+    exit 0
+fi
+
+"$root/resources/install-packages.sh" build run
+
+# Talk of the build goes to stderr, so that e.g. `./run.sh plan FILE --json` can be piped.
+build="$root/build/release"
+export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1
+{
+    cmake -S "$root" -B "$build" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF
+    cmake --build "$build" --parallel "$(nproc)"
+} >&2
+studio="$build/bin/illuminatedfocus"
+
+headless() {
+    local file="${1:-$sample}" results="$root/results" status=0
+    mkdir -p "$results"
+    "$studio" run "$file" --seconds 2 --report "$results/report.json" --pictures "$results" || status=$?
+    echo "Written to $results:"
+    find "$results" -type f -printf '  %P  (%s bytes)\n' | sort
+    exit "$status"
+}
+
+if [ "${1:-}" = "--headless" ]; then
+    shift
+    headless "$@"
+elif [ "$#" -gt 0 ]; then
+    exec "$studio" "$@"
+elif [ -z "${DISPLAY:-}" ]; then
+    echo "No display (DISPLAY is not set): running without a window, as ./run.sh --headless does." >&2
+    headless
+else
+    exec "$studio" "$sample"
+fi
