@@ -48,7 +48,7 @@ FNR == 1 {
     if (name ~ /(^|\/)\.\.\//) complain("includes start at the repository root, not at " name)
     else if (name ~ ours) {
         if (name !~ allowed) complain((layer == "tests" ? "this test" : layer) " must not include " name)
-    } else if (quoted && name !~ /^ilf\/version\.h$/ && name !~ /_generated\.h$/)
+    } else if (quoted && name ~ /\// && name !~ /^ilf\/version\.h$/)  # a bare name is a file of the same folder
         complain("\"" name "\": includes of ours start at the repository root, as in \"core/...\"")
     if (layer == "core" && name ~ /^(imgui|nlohmann|libusb|zmq|GLFW|epoxy|spdlog|opencv2\/(imgcodecs|videoio|highgui|opencv))/)
         complain("core is values and pure functions: it must not include " name)
