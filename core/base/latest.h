@@ -1,0 +1,41 @@
+// A letterbox for one value between two threads: the reader always gets the newest.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <utility>
+
+namespace ilf {
+
+/// `put` never blocks on the reader and replaces a value nobody took; `take` waits for one.
+/// Old values are dropped on purpose: nobody wants yesterday's brush position.
+template <class T>
+class Latest {
+public:
+    void put(T value) {
+        {
+            const std::scoped_lock lock(mutex_);
+            value_ = std::move(value);
+        }
+        arrived_.notify_one();
+    }
+    /// Waits for a value; nothing once a stop is asked for.
+    std::optional<T> take(std::stop_token stop) {
+        std::unique_lock lock(mutex_);
+        if (!arrived_.wait(lock, stop, [&] { return value_.has_value(); })) return std::nullopt;
+        return std::exchange(value_, std::nullopt);
+    }
+    std::optional<T> tryTake() {
+        const std::scoped_lock lock(mutex_);
+        return std::exchange(value_, std::nullopt);
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable_any arrived_;
+    std::optional<T> value_;
+};
+
+}  // namespace ilf

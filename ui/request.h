@@ -1,0 +1,74 @@
+// What panels ask for: edits, commands, and the few things that need more than an edit.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/document/edit.h"
+#include "ui/commands.h"
+
+namespace ilf::ui {
+
+/// An edit as part of a gesture (`preview`) or as its end (`commit`, one undo step).
+struct EditRequest {
+    enum class When { preview, commit };
+    When when = When::commit;
+    Edit edit;
+};
+/// The gesture is over and its previews stand: one undo step.
+struct CommitGesture {
+    std::string label;
+};
+/// The gesture is over and leaves nothing.
+struct CancelGesture {};
+/// A command from menu, key or button.
+struct RunCommand {
+    Command command;
+};
+/// Open this project, picture or video (by content, not by name); `asScene` keeps the regions of the current project.
+struct OpenFile {
+    std::string path;
+    bool asScene = false;
+};
+struct SaveFile {
+    std::string path;
+};
+struct ExportView {
+    std::string path;
+};
+struct OpenCamera {
+    std::string id;
+};
+struct SeekVideo {
+    double position = 0.0;
+};
+/// Click-select in the background; the result arrives as a SetMask edit of `region`.
+struct SelectObject {
+    RegionId region;
+    PixelRect<CameraFrame> box;
+};
+struct SelectFlood {
+    RegionId region;
+    Point<CameraFrame> at;
+    double tolerance = 0.1;
+};
+/// Jump in the undo list.
+struct GoToHistory {
+    std::size_t step = 0;
+};
+struct AcknowledgeFault {};
+struct LoadDepthMap {
+    std::string path;
+    Metre metresPerUnit = 1.0_mm;
+};
+/// Answer to the recovery question at start.
+struct Recover {
+    enum class Choice { recover, openSaved, skip } choice = Choice::recover;
+};
+using Request =
+    std::variant<EditRequest, CommitGesture, CancelGesture, RunCommand, OpenFile, SaveFile, ExportView, OpenCamera,
+                 SeekVideo, SelectObject, SelectFlood, GoToHistory, AcknowledgeFault, LoadDepthMap, Recover>;
+using Requests = std::vector<Request>;
+
+}  // namespace ilf::ui
