@@ -27,13 +27,18 @@ public:
         if (!arrived_.wait(lock, stop, [&] { return value_.has_value(); })) return std::nullopt;
         return std::exchange(value_, std::nullopt);
     }
+    /// True while a value waits: what a long computation asks to see whether its result is still wanted.
+    bool waiting() const {
+        const std::scoped_lock lock(mutex_);
+        return value_.has_value();
+    }
     std::optional<T> tryTake() {
         const std::scoped_lock lock(mutex_);
         return std::exchange(value_, std::nullopt);
     }
 
 private:
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::condition_variable_any arrived_;
     std::optional<T> value_;
 };
