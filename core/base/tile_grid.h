@@ -28,8 +28,13 @@ const Box<Tile>& uniformTile(std::uint8_t value);
 /// Boxes `tile`, giving the shared box when it is uniform.
 Box<Tile> boxed(const Tile& tile);
 
-/// Values 0..255 over `size` pixels. Tiles at the right and lower edge reach beyond the picture; what lies there is 0
-/// and is never shown. Copies share tiles; changing one tile leaves all others shared.
+/// Values 0..255 over `size` pixels. Copies share tiles; changing one tile leaves all others shared.
+///
+/// Tiles at the right and lower edge reach beyond the picture. What lies there is never shown, and follows one rule, so
+/// that equal pictures are equal grids and uniform tiles stay shared: a tile whose pixels inside the picture all have
+/// one value is the uniform tile of that value, beyond the edge too; in any other tile what lies beyond the edge is 0.
+/// `setTile` sees to it. So code that works on whole tiles (maximum, 255 - v, a table) needs no thought for the edge;
+/// code that counts or measures pixels must clip to `pixelsOf`.
 class TileGrid {
 public:
     TileGrid() = default;
@@ -41,7 +46,14 @@ public:
     bool empty() const { return tiles_.empty(); }
 
     const Box<Tile>& tile(int column, int row) const { return tiles_[index(column, row)]; }
-    void setTile(int column, int row, Box<Tile> tile) { tiles_[index(column, row)] = std::move(tile); }
+    /// Precondition: `tile` is not empty. Keeps the box itself unless the rule for the edge asks for another; give
+    /// tiles that may be uniform as `boxed(tile)`.
+    void setTile(int column, int row, Box<Tile> tile);
+    /// The tile's pixels inside the picture.
+    PixelRect<CameraFrame> pixelsOf(int column, int row) const {
+        return PixelRect<CameraFrame>{column * kTile, row * kTile, (column + 1) * kTile, (row + 1) * kTile}.clipped(
+            size_);
+    }
     bool isUniform(int column, int row, std::uint8_t value) const { return tile(column, row).same(uniformTile(value)); }
     /// The value of a pixel; 0 outside the picture.
     std::uint8_t at(int x, int y) const;
@@ -62,10 +74,11 @@ private:
     std::vector<Box<Tile>> tiles_;
 };
 
-/// Calls `visit(column, row)` for every tile whose box differs between grids of one size.
+/// Calls `visit(column, row)` for every tile whose box differs between grids of one size; for every tile of `after`
+/// when the sizes differ. Boxes that differ may hold equal values.
 void forEachChangedTile(const TileGrid& before, const TileGrid& after, const std::function<void(int, int)>& visit);
 
-/// One-channel picture, 0..255, of the grid, and back. `image` must have one channel.
+/// One-channel picture, 0..255, of the grid (empty for an empty grid), and back. `image` must have one channel.
 Image<std::uint8_t> toImage(const TileGrid& grid);
 TileGrid toTiles(const Image<std::uint8_t>& image);
 
