@@ -100,16 +100,19 @@ struct Document {
     bool operator==(const Document&) const = default;
 };
 
-/// A document over `scene`, with a neutral background at 2 m and no regions.
+/// A document over `scene`, with a neutral background at 2 m and no regions. A scene without a pixel scale gets the
+/// default field of view.
 Document newDocument(Scene scene);
 
 /// The region or background of that id, or nullptr.
 const Region* findRegion(const Document& document, const RegionId& id);
 
-/// Regions that take part, topmost first: visible ones, or only the soloed ones if any visible region is soloed.
+/// Regions that take part, topmost first: visible ones, or only the soloed ones if any visible region is soloed. The
+/// background is not among them and always takes part.
 std::vector<const Region*> activeRegions(const Document& document);
 
-/// Where a camera pixel lands on the projector: the rig's registration, or the picture fitted into the raster.
+/// Where a camera pixel lands on the projector: the rig's registration, or the whole picture fitted into the raster,
+/// centred, with equal scale in x and y.
 Homography<ProjectorFrame, CameraFrame> projectorFromCamera(const Document& document);
 
 /// The camera's axis in the picture (its centre, until a calibration says otherwise).
@@ -123,16 +126,22 @@ Point<CameraFrame> opticalCentre(const Document& document, Eye eye, Metre distan
 /// pupil): f_px / (distance + d_Ee).
 double pixelsPerMetre(const Document& document, Metre distance);
 
-/// Vergence of a region's surface over the picture; nothing for FromDepthMap. A plane whose anchors are on one line,
-/// or that reaches infinity inside the picture, is an error.
+/// Vergence of a region's surface over the picture; nothing for FromDepthMap. A plane whose anchors are on one line, or
+/// that reaches infinity within the region's pixels, is an error. Outside the region the plane may well pass its
+/// horizon: there the vergence is 0 or negative.
 Result<std::optional<AffineVergence>> affineVergence(const Region& region);
 
-/// Distance of the region's surface at a pixel. For FromDepthMap: the map's value, nothing at a hole.
+/// Distance of the region's surface at a point of the picture, without its tolerance. A plane ends at
+/// kFarthestDistance. For FromDepthMap: the map's value, nothing at a hole or without a map.
 std::optional<Metre> distanceAt(const Document& document, const Region& region, Point<CameraFrame> at);
 
 /// Nearest and farthest point of what is seen of a region (tolerances included), over the pixels where it covers at
 /// least half and no active region above it does. For a region that covers nothing: of its distance alone, or nothing
 /// if that needs pixels.
+///
+/// Constant: value -+ tolerance. Plane: its extremes over the centres of the pixels seen, ending at kFarthestDistance.
+/// Depth map: the 0.1 % and 99.9 % quantiles of the pixels seen that have depth, so that a few stray pixels of the
+/// sensor, which would otherwise decide how far the lens must sweep, do not.
 struct DistanceRange {
     Metre nearest, farthest;
     double holes = 0.0;  ///< share of its pixels without depth
