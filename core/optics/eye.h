@@ -19,7 +19,8 @@ struct EyeOptics {
     bool operator==(const EyeOptics&) const = default;
 };
 
-/// The wearer's eye, or the camera that stands in for it.
+/// The wearer's eye, or the camera that stands in for it: a thin lens focused at its distance, its pupil limited by the
+/// tunable lens, which has nothing to accommodate with.
 EyeOptics eyeOptics(const Wearer& wearer);
 
 /// Hofstetter's mean amplitude of accommodation, 18.5 - 0.3 age, at least 0 D (valid to about 60 years).
@@ -41,7 +42,8 @@ Carried carriedToLens(const EyeOptics& eye, Dioptre atEye);
 Carried farBorderOffset(const EyeOptics& eye);
 Carried nearBorderOffset(const EyeOptics& eye);
 
-/// P_off = K(F0): the lens power that corrects the wearer. The lens rests there; 0 D for an emmetrope.
+/// P_off = K(F0): the lens power that corrects the wearer. The lens rests there; 0 D for an emmetrope. Not asked of a
+/// camera, whose focus is its own: there the lens rests at 0 D (Plan::waveform.rest holds the right one of the two).
 Dioptre restPower(const EyeOptics& eye);
 
 /// Powers for which an object at `distance` is seen sharp: [1/d + K_n, 1/d + K_f].
@@ -49,6 +51,7 @@ struct PowerWindow {
     Dioptre low, high;
     bool operator==(const PowerWindow&) const = default;
 };
+/// Open below (-infinity) when the near point lies between lens and eye; empty (low > high) when the far point does.
 PowerWindow inFocusWindow(const EyeOptics& eye, Metre distance);
 
 /// P_min = 1/d_oE + K_f: strictly above it the object is blurred whatever the eye does. Error when the eye's far point
@@ -56,7 +59,7 @@ PowerWindow inFocusWindow(const EyeOptics& eye, Metre distance);
 Result<Dioptre> minimumBlurPower(const EyeOptics& eye, Metre distance);
 
 /// Signed defocus at the eye in dioptres, positive = image in front of the retina (myopic side), of an object at
-/// `distance` seen through power `lens`:  E = L'' - F0 - accommodating,  L'' = V / (1 - e V), V = P - 1/d.
+/// `distance` seen through power `lens`:  E = L'' - F0 + accommodating,  L'' = V / (1 - e V), V = P - 1/d.
 /// `accommodating` 0 D is the relaxed eye. Precondition: d_Ee * P < 1.
 Dioptre defocus(const EyeOptics& eye, Metre distance, Dioptre lens, Dioptre accommodating = {});
 

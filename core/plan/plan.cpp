@@ -1,0 +1,245 @@
+#include "core/plan/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/plan/schedule.h"
+#include "core/plan/verdicts.h"
+#include "core/plan/words.h"
+
+namespace ilf {
+namespace {
+
+/// Powers nearer than this are one power.
+constexpr Dioptre kSamePower = 1e-9_D;
+
+/// A plan while it is being made: wishes for levels, and which wish each region is lit with.
+struct Draft {
+    std::vector<LevelWish> wishes;
+    std::vector<std::size_t> ofRegion;
+
+    /// The level of a blurred region that asks for `power`. A level up to the error budget above it serves as well:
+    /// levels closer than that would only take each other's slots, and more power than asked still blurs.
+    std::size_t blurLevel(Dioptre power, Dioptre pMin) {
+        for (std::size_t l = 0; l < wishes.size(); ++l) {
+            const Dioptre above = wishes[l].power - power;
+            const Dioptre reach = wishes[l].kind == LevelKind::blur ? kFocusErrorBudget : kSamePower;
+            if (above < -kSamePower || above > reach) continue;
+            if (wishes[l].kind == LevelKind::blur) wishes[l].above = std::max(wishes[l].above.value_or(pMin), pMin);
+            return l;
+        }
+        wishes.push_back({LevelKind::blur, power, pMin});
+        return wishes.size() - 1;
+    }
+    std::size_t strongest() const {
+        return static_cast<std::size_t>(std::ranges::max_element(wishes, {}, &LevelWish::power) - wishes.begin());
+    }
+    std::size_t nearest(LevelKind kind, Dioptre power, std::size_t except) const {
+        std::size_t best = except;
+        for (std::size_t l = 0; l < wishes.size(); ++l) {
+            if (l == except || wishes[l].kind != kind) continue;
+            if (best == except || abs(wishes[l].power - power) < abs(wishes[best].power - power)) best = l;
+        }
+        return best;
+    }
+    void remove(std::size_t level, std::size_t replacement) {
+        for (std::size_t& l : ofRegion) {
+            if (l == level) l = replacement;
+            if (l > level) --l;
+        }
+        wishes.erase(wishes.begin() + static_cast<std::ptrdiff_t>(level));
+    }
+};
+
+/// The largest P_min of the regions that need the sweep, and whose it is (the first one's, if several share it).
+void findDriver(Plan& plan, const std::vector<BlurWish>& wishes) {
+    for (std::size_t i = 0; i < wishes.size(); ++i) {
+        const RegionPlan& region = plan.regions[i];
+        if (!wishes[i].needsSweep || (plan.pS && *region.pMin <= *plan.pS)) continue;
+        plan.pS = region.pMin;
+        plan.driver = region.id;
+    }
+}
+
+Draft drafted(const PlanInput& input, const Plan& plan, const FocusVerdict& focus, const std::vector<BlurWish>& blurs,
+              Dioptre high) {
+    Draft draft{{}, focus.ofObject};
+    for (const Dioptre power : focus.powers)
+        draft.wishes.push_back({LevelKind::focus, power, std::nullopt});
+
+    // From the strongest down, so that a weaker wish finds the level just above it.
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < blurs.size(); ++i) {
+        if (blurs[i].needsSweep) order.push_back(i);
+    }
+    const auto wanted = [&](std::size_t i) { return blurs[i].power.value_or(high); };
+    std::ranges::stable_sort(order, std::greater{}, wanted);
+    for (const std::size_t i : order)
+        draft.ofRegion[i] = draft.blurLevel(wanted(i), *plan.regions[i].pMin);
+
+    for (std::size_t i = 0; i < input.objects.size(); ++i) {
+        if (input.objects[i].look != Look::blur || blurs[i].needsSweep) continue;
+        // Already blurred at rest, or as blurred as the sweep can make it.
+        draft.ofRegion[i] = plan.regions[i].alreadyBlurred ? focus.main : draft.strongest();
+    }
+    return draft;
+}
+
+/// Writes down that the sine passes a level too fast.
+void explainTooFast(const Draft& draft, std::size_t level, std::size_t replacement, Plan& plan) {
+    const std::string at = inWords(draft.wishes[level].power), instead = inWords(draft.wishes[replacement].power);
+    for (std::size_t i = 0; i < plan.regions.size(); ++i) {
+        RegionPlan& region = plan.regions[i];
+        if (region.look == Look::neutral || draft.ofRegion[i] != level || !region.problem.empty()) continue;
+        if (region.look == Look::focus) {
+            region.problem = quoted(region.name) + " needs light at " + at +
+                             ", in the middle of the sweep, where the lens "
+                             "is too fast for one slot: it is lit at " +
+                             instead + " and not sharp.";
+            region.help = "Put it nearer to the other focused objects, or use a projector with shorter slots.";
+        } else {
+            region.problem = quoted(region.name) + " needs light at " + at +
+                             ", in the middle of the sweep, where the lens "
+                             "is too fast for one slot: it is lit at " +
+                             instead + " and blurred more than asked.";
+            region.help = "Leave its strength empty, or raise it so that it is lit at the end of the sweep.";
+        }
+    }
+}
+
+tl::unexpected<Error> tooFast(const Draft& draft, std::size_t level, const Plan& plan) {
+    const auto lit = std::ranges::find(draft.ofRegion, level);
+    const bool named = lit != draft.ofRegion.end() && plan.input.camera;
+    const std::string what = named ? quoted(plan.regions[static_cast<std::size_t>(lit - draft.ofRegion.begin())].name) +
+                                         " is in focus for the camera at "
+                                   : std::string("The plan needs light at ");
+    return fail(Fault::unsafe, what + inWords(draft.wishes[level].power) + ", where a sine of " +
+                                   inWords(plan.waveform.low) + " to " + inWords(plan.waveform.high) + " at " +
+                                   inWords(plan.waveform.rate.si(), 0) +
+                                   " Hz does not stay within the error budget for even "
+                                   "one slot. Bring the distances closer together, or use a rig with shorter slots.");
+}
+
+/// Gives every level slots. Levels in the middle of the sweep that the sine cannot hold are given up in words; a
+/// camera's levels and the two ends of the sweep are what the plan is for, so without them there is no plan.
+Result<Schedule> fitted(Draft& draft, Plan& plan) {
+    for (;;) {
+        Schedule schedule = scheduled(plan.waveform, plan.input.rig, draft.wishes);
+        const auto empty =
+            std::ranges::find_if(schedule.levels, [](const Level& level) { return level.slots.empty(); });
+        if (empty == schedule.levels.end() || plan.waveform.still()) return schedule;
+        const auto level = static_cast<std::size_t>(empty - schedule.levels.begin());
+        const bool focus = draft.wishes[level].kind == LevelKind::focus;
+        const std::size_t replacement =
+            focus ? draft.nearest(LevelKind::focus, draft.wishes[level].power, level) : draft.strongest();
+        if (plan.input.camera || replacement == level) return tooFast(draft, level, plan);
+        explainTooFast(draft, level, replacement, plan);
+        draft.remove(level, replacement);
+    }
+}
+
+/// Focus levels first, each kind ascending.
+void sortLevels(Draft& draft) {
+    std::vector<std::size_t> order(draft.wishes.size());
+    for (std::size_t l = 0; l < order.size(); ++l)
+        order[l] = l;
+    std::ranges::stable_sort(order, {}, [&](std::size_t l) {
+        return std::pair(draft.wishes[l].kind == LevelKind::blur, draft.wishes[l].power);
+    });
+    std::vector<LevelWish> wishes;
+    std::vector<std::size_t> rank(order.size());
+    for (std::size_t l = 0; l < order.size(); ++l) {
+        rank[order[l]] = l;
+        wishes.push_back(draft.wishes[order[l]]);
+    }
+    draft.wishes = std::move(wishes);
+    for (std::size_t& l : draft.ofRegion)
+        l = rank[l];
+}
+
+/// The power each region is lit with, and what that does to it.
+void describeRegions(Plan& plan, const Draft& draft) {
+    const EyeOptics& eye = plan.input.eye;
+    std::optional<std::size_t> attended;
+    for (std::size_t i = 0; i < plan.regions.size(); ++i) {
+        RegionPlan& region = plan.regions[i];
+        region.levelPower = plan.focusPower;
+        if (region.look != Look::neutral) {
+            region.level = static_cast<int>(draft.ofRegion[i]);
+            region.levelPower = plan.levels[draft.ofRegion[i]].power;
+        }
+        if (region.look != Look::focus || !region.problem.empty()) continue;
+        if (!attended || region.nearest < plan.regions[*attended].nearest) attended = i;
+    }
+    for (RegionPlan& region : plan.regions) {
+        region.blurDiameter = blurDiameter(eye, region.nearest, region.levelPower);
+        region.blurDiameterAttending =
+            attended && !plan.input.camera
+                ? blurDiameterAttending(eye, region.nearest, region.levelPower, plan.regions[*attended].nearest,
+                                        plan.regions[*attended].levelPower)
+                : region.blurDiameter;
+        region.scale = magnification(eye, region.nearest, plan.focusPower, region.levelPower);
+        if (region.look == Look::blur && region.problem.empty() && region.pMin && region.levelPower <= *region.pMin) {
+            region.problem = quoted(region.name) + " is lit exactly at its border of blur, " + inWords(*region.pMin) +
+                             ", and may look sharp.";
+            region.help = "Raise alpha above 0 D.";
+        }
+    }
+}
+
+}  // namespace
+
+Result<Plan> plan(const PlanInput& input) {
+    if (const auto good = checkedInput(input); !good) return tl::unexpected(good.error());
+    Plan plan;
+    plan.input = input;
+    plan.alpha = input.alpha;
+    plan.farOffset = farBorderOffset(input.eye).power;
+    for (const PlanObject& object : input.objects) {
+        RegionPlan region;
+        region.id = object.id;
+        region.name = object.name;
+        region.look = object.look;
+        region.nearest = object.nearest;
+        region.farthest = object.farthest;
+        plan.regions.push_back(std::move(region));
+    }
+
+    const FocusVerdict focus = focusVerdict(input, plan.regions);
+    plan.focusPower = focus.powers[focus.main];
+    std::vector<BlurWish> blurs(input.objects.size());
+    for (std::size_t i = 0; i < blurs.size(); ++i) {
+        if (input.objects[i].look == Look::blur) {
+            blurs[i] = blurWish(input, input.objects[i], plan.focusPower, plan.regions[i]);
+        }
+    }
+    findDriver(plan, blurs);
+
+    // The sweep runs from the lowest focus level (the lens need not pass its rest power on the way) to P_s + alpha, or
+    // farther where a strength or a focus level asks for it.
+    Dioptre high = focus.powers.back();
+    if (plan.pS) high = std::max(high, *plan.pS + plan.alpha);
+    for (const BlurWish& wish : blurs)
+        high = std::max(high, wish.power.value_or(high));
+    plan.waveform = sineWaveform(restOf(input), focus.powers.front(), high, input.rig);
+
+    Draft draft = drafted(input, plan, focus, blurs, high);
+    auto schedule = fitted(draft, plan);
+    if (!schedule) return tl::unexpected(schedule.error());
+    sortLevels(draft);
+    *schedule = scheduled(plan.waveform, input.rig, draft.wishes);
+    plan.levels = std::move(schedule->levels);
+    plan.slots = std::move(schedule->slots);
+    plan.light = schedule->light;
+    plan.focusPower = plan.levels.front().power;
+    for (const Level& level : plan.levels) {
+        if (level.kind == LevelKind::focus &&
+            abs(level.power - plan.waveform.rest) < abs(plan.focusPower - plan.waveform.rest)) {
+            plan.focusPower = level.power;
+        }
+    }
+    describeRegions(plan, draft);
+    return plan;
+}
+
+}  // namespace ilf
