@@ -38,7 +38,7 @@ FNR == 1 {
     } else {
         allowed = may[layer]
     }
-    if (header && $0 !~ /^\/\/ [A-Z0-9]/) complain("the first line of a header is one // sentence saying what it is for")
+    if (header && $0 !~ /^\/\/ [^ \t]/) complain("the first line of a header is one // sentence saying what it is for")
 }
 /^[ \t]*#[ \t]*include[ \t]*["<]/ {
     name = $0
