@@ -157,6 +157,15 @@ void sortLevels(Draft& draft) {
         l = rank[l];
 }
 
+/// The least of the powers a region is really lit with: the means of its level's slots.
+Dioptre leastLitPower(const Plan& plan, const RegionPlan& region) {
+    Dioptre least = region.levelPower;
+    for (const int slot : plan.levels[static_cast<std::size_t>(*region.level)].slots) {
+        least = std::min(least, plan.slots[static_cast<std::size_t>(slot)].power);
+    }
+    return least;
+}
+
 /// The power each region is lit with, and what that does to it.
 void describeRegions(Plan& plan, const Draft& draft) {
     const EyeOptics& eye = plan.input.eye;
@@ -179,10 +188,11 @@ void describeRegions(Plan& plan, const Draft& draft) {
                                         plan.regions[*attended].levelPower)
                 : region.blurDiameter;
         region.scale = magnification(eye, region.nearest, plan.focusPower, region.levelPower);
-        if (region.look == Look::blur && region.problem.empty() && region.pMin && region.levelPower <= *region.pMin) {
-            region.problem = quoted(region.name) + " is lit exactly at its border of blur, " + inWords(*region.pMin) +
-                             ", and may look sharp.";
-            region.help = "Raise alpha above 0 D.";
+        if (region.look == Look::blur && region.problem.empty() && region.pMin &&
+            leastLitPower(plan, region) <= *region.pMin) {
+            region.problem = quoted(region.name) + " is lit no farther than its border of blur, " +
+                             inWords(*region.pMin) + ", and may look sharp.";
+            region.help = "Raise alpha.";
         }
     }
 }

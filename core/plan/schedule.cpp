@@ -44,17 +44,19 @@ std::size_t nearestLevel(const SlotPower& slot, const std::vector<LevelWish>& wi
 }
 
 /// Takes `candidates` in order of error while their rms stays in the budget.
-Level filled(const LevelWish& wish, Dioptre rest, const std::vector<SlotPower>& powers, std::vector<int> candidates) {
+Level filled(const LevelWish& wish, const Waveform& waveform, const std::vector<SlotPower>& powers,
+             std::vector<int> candidates) {
     const auto error = [&](int slot) { return powers[static_cast<std::size_t>(slot)].squareError(wish.power.si()); };
     std::ranges::stable_sort(candidates, {}, error);
-    const double allowed = std::pow(budget(wish, rest), 2);
+    const double allowed = std::pow(budget(wish, waveform.rest), 2);
     Level level{wish.kind, wish.power, {}, 1.0, {}};
     double sum = 0.0;
     for (const int slot : candidates) {
         const double count = static_cast<double>(level.slots.size());
         if (sum + error(slot) > allowed * (count + 1.0)) break;
         const double mean = powers[static_cast<std::size_t>(slot)].mean();
-        if (!level.slots.empty() && wish.above && mean <= wish.above->si()) continue;
+        const bool endOfSweep = level.slots.empty() && wish.power == waveform.high;
+        if (wish.above && mean <= wish.above->si() && !endOfSweep) continue;
         sum += error(slot);
         level.slots.push_back(slot);
     }
@@ -89,7 +91,7 @@ Schedule scheduled(const Waveform& waveform, const Rig& rig, const std::vector<L
     }
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     for (std::size_t l = 0; l < wishes.size(); ++l) {
-        schedule.levels.push_back(filled(wishes[l], waveform.rest, powers, candidates[l]));
+        schedule.levels.push_back(filled(wishes[l], waveform, powers, candidates[l]));
         fewest = std::min(fewest, schedule.levels.back().slots.size());
     }
     for (std::size_t l = 0; l < wishes.size(); ++l) {

@@ -13,7 +13,7 @@ struct LevelWish {
     LevelKind kind = LevelKind::focus;
     Dioptre power;
     /// Blur only: a slot whose mean power is below this would show a region sharp that must be blurred. It is left out,
-    /// except the best slot of the level.
+    /// except the one at the end of the sweep, which is the best there is.
     std::optional<Dioptre> above;
 };
 
