@@ -1,0 +1,221 @@
+#include "projects/project_json.h"
+
+#include <set>
+#include <utility>
+
+namespace ilf::projects {
+namespace {
+
+const char* const kFormat = "illuminatedfocus-project";
+const std::vector<std::string> kLooks{"focus", "blur", "neutral"};
+const std::vector<std::string> kBlendings{"none", "linear-object", "linear-perceived", "closed-form"};
+const std::vector<std::string> kScaleSources{"assumed", "exif", "typed", "calibrated"};
+const std::vector<std::string> kDistanceKinds{"constant", "plane", "depth-map"};
+
+template <class Enum>
+const std::string& wordOf(const std::vector<std::string>& words, Enum value) {
+    return words[static_cast<std::size_t>(value)];
+}
+
+Json written(const Distance& distance, Json json) {
+    for (const char* key : {"value_m", "tolerance_m"})
+        json.erase(key);
+    json.set("kind", kDistanceKinds[distance.index()]);
+    if (const auto* constant = std::get_if<ConstantDistance>(&distance)) {
+        json.set("value_m", constant->value.si());
+        json.set("tolerance_m", constant->tolerance.si());
+    }
+    if (const auto* plane = std::get_if<PlaneDistance>(&distance)) {
+        std::vector<Json> anchors = json.objects("anchors");
+        anchors.resize(plane->anchors.size());
+        for (std::size_t i = 0; i < anchors.size(); ++i) {
+            anchors[i].set("x_px", plane->anchors[i].at.x);
+            anchors[i].set("y_px", plane->anchors[i].at.y);
+            anchors[i].set("distance_m", plane->anchors[i].distance.si());
+        }
+        json.set("anchors", anchors);
+    } else {
+        json.erase("anchors");
+    }
+    if (const auto* map = std::get_if<FromDepthMap>(&distance)) json.set("tolerance_m", map->tolerance.si());
+    return json;
+}
+
+Distance distanceFrom(JsonReader reader) {
+    switch (reader.choice("kind", kDistanceKinds)) {
+    case 0:
+        return ConstantDistance{Metre::fromSi(reader.number("value_m")),
+                                Metre::fromSi(reader.number("tolerance_m", 0.0))};
+    case 1: {
+        PlaneDistance plane;
+        std::vector<JsonReader> anchors = reader.objects("anchors");
+        if (anchors.size() != plane.anchors.size()) {
+            reader.complain("anchors", "must be a list of three points of the plane.");
+            return plane;
+        }
+        for (std::size_t i = 0; i < anchors.size(); ++i) {
+            plane.anchors[i].at = {anchors[i].number("x_px"), anchors[i].number("y_px")};
+            plane.anchors[i].distance = Metre::fromSi(anchors[i].number("distance_m"));
+        }
+        return plane;
+    }
+    default:
+        return FromDepthMap{Metre::fromSi(reader.number("tolerance_m", 0.0))};
+    }
+}
+
+/// What regions and the background have in common.
+void setSurface(Json& json, const Region& region) {
+    json.set("name", region.name);
+    json.set("look", wordOf(kLooks, region.look));
+    if (region.strength) {
+        json.set("strength_D", region.strength->si());
+    } else {
+        json.erase("strength_D");
+    }
+    json.set("distance", written(region.distance, json.object("distance")));
+}
+
+Json written(const Region& region, const std::string& mask, Json json) {
+    json.set("id", region.id);
+    setSurface(json, region);
+    json.erase("mask");
+    if (!mask.empty()) json.set("mask", mask);
+    json.erase("outline_px");
+    if (region.outline) {
+        std::vector<std::pair<double, double>> vertices;
+        for (const auto& vertex : region.outline->vertices)
+            vertices.emplace_back(vertex.x, vertex.y);
+        json.setPairs("outline_px", vertices);
+    }
+    json.set("visible", region.visible);
+    json.set("locked", region.locked);
+    json.set("solo", region.solo);
+    return json;
+}
+
+Region surfaceFrom(JsonReader& reader, const RegionId& id) {
+    Region region;
+    region.id = id;
+    region.name = reader.word("name", id);
+    region.look = static_cast<Look>(reader.choice("look", kLooks));
+    if (const auto strength = reader.optionalNumber("strength_D")) region.strength = Dioptre::fromSi(*strength);
+    region.distance = distanceFrom(reader.object("distance"));
+    region.visible = reader.flag("visible", true);
+    region.locked = reader.flag("locked", false);
+    region.solo = reader.flag("solo", false);
+    return region;
+}
+
+Region regionFrom(JsonReader& reader) {
+    Region region = surfaceFrom(reader, reader.word("id"));
+    if (reader.has("outline_px")) {
+        region.outline.emplace();
+        for (const auto& [x, y] : reader.pairs("outline_px"))
+            region.outline->vertices.push_back({x, y});
+    }
+    return region;
+}
+
+Json written(const Scene& scene, const ProjectNames& names, Json json) {
+    json.erase("picture");
+    if (!names.picture.empty()) json.set("picture", names.picture);
+    json.set("source", scene.source);
+    json.set("focal_px", scene.scale.focalPixels);
+    json.set("focal_source", wordOf(kScaleSources, scene.scale.source));
+    if (names.depth.empty()) {
+        json.erase("depth");
+    } else {
+        Json depth = json.object("depth");
+        depth.set("file", names.depth);
+        depth.set("metres_per_unit", scene.depth->metresPerUnit.si());
+        json.set("depth", depth);
+    }
+    return json;
+}
+
+void readScene(JsonReader reader, ProjectText& project) {
+    Scene& scene = project.document.scene;
+    project.names.picture = reader.word("picture", "");
+    scene.source = reader.word("source", "");
+    scene.scale.focalPixels = reader.number("focal_px", 0.0);
+    if (reader.has("focal_source")) {
+        scene.scale.source = static_cast<PixelScale::Source>(reader.choice("focal_source", kScaleSources));
+    }
+    if (!reader.has("depth")) return;
+    JsonReader depth = reader.object("depth");
+    project.names.depth = depth.word("file");
+    project.depthUnit = Metre::fromSi(depth.number("metres_per_unit"));
+    if (!(project.depthUnit > 0.0_m)) depth.complain("metres_per_unit", "must be more than 0.");
+}
+
+}  // namespace
+
+Json written(const Document& document, const ProjectNames& names, Json json) {
+    json.set("format", std::string(kFormat));
+    json.set("version", kProjectVersion);
+    json.set("name", document.name);
+    json.set("scene", written(document.scene, names, json.object("scene")));
+    const std::vector<Json> regionsBefore = json.objects("regions");
+    std::vector<Json> regions;
+    for (std::size_t i = 0; i < document.regions.size(); ++i) {
+        const Region& region = *document.regions[i];
+        Json before;
+        for (const Json& candidate : regionsBefore) {
+            if (candidate.word("id") == region.id) before = candidate;
+        }
+        regions.push_back(written(region, names.masks[i], before));
+    }
+    json.set("regions", regions);
+    if (document.background) {
+        const Region& region = *document.background;
+        Json background = json.object("background");
+        setSurface(background, region);
+        background.set("visible", region.visible);
+        background.set("locked", region.locked);
+        background.set("solo", region.solo);
+        json.set("background", background);
+    }
+    Json seam = json.object("seam");
+    seam.set("blending", wordOf(kBlendings, document.seam.blending));
+    seam.set("feather_m", document.seam.feather.si());
+    json.set("seam", seam);
+    json.set("alpha_D", document.alpha.si());
+    json.set("wearer", names.wearer);
+    json.set("rig", names.rig);
+    return json;
+}
+
+Result<ProjectText> projectFrom(const Json& json, const std::string& file) {
+    if (auto known = checkedFormat(json, file, kFormat, kProjectVersion, "project"); !known) {
+        return tl::unexpected(known.error());
+    }
+    ProjectText project;
+    Document& document = project.document;
+    JsonReader reader(json, file);
+    document.name = reader.word("name", document.name);
+    readScene(reader.object("scene"), project);
+    std::set<RegionId> ids{kBackgroundId};
+    for (JsonReader& region : reader.objects("regions")) {
+        document.regions.emplace_back(regionFrom(region));
+        project.names.masks.push_back(region.word("mask", ""));
+        const RegionId& id = document.regions.back()->id;
+        if (!region.problem() && (id.empty() || !ids.insert(id).second)) {
+            region.complain("id", "must be unlike all others, but is \"" + id + "\".");
+        }
+    }
+    JsonReader background = reader.object("background");
+    document.background = Box<Region>(surfaceFrom(background, kBackgroundId));
+    if (reader.has("seam")) {
+        JsonReader seam = reader.object("seam");
+        document.seam.blending = static_cast<Blending>(seam.choice("blending", kBlendings));
+        document.seam.feather = Metre::fromSi(seam.number("feather_m"));
+    }
+    document.alpha = Dioptre::fromSi(reader.number("alpha_D", document.alpha.si()));
+    project.names.wearer = reader.word("wearer", "");
+    project.names.rig = reader.word("rig", "");
+    if (reader.problem()) return tl::unexpected(*reader.problem());
+    return project;
+}
+
+}  // namespace ilf::projects

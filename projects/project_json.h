@@ -1,0 +1,32 @@
+// A document without its pixels to project.json and back.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/document/document.h"
+#include "projects/json.h"
+
+namespace ilf::projects {
+
+inline constexpr int kProjectVersion = 1;
+
+/// Names of the files that hold what project.json does not; empty: there is none.
+struct ProjectNames {
+    std::string picture, depth, wearer, rig;
+    std::vector<std::string> masks;  ///< one for each region
+};
+
+/// `before` is what project.json held: keys that this version does not know are kept at every level.
+Json written(const Document& document, const ProjectNames& names, Json before);
+
+/// What project.json says. The document has no picture, depth or masks yet, and the default wearer and rig.
+struct ProjectText {
+    Document document;
+    ProjectNames names;
+    Metre depthUnit = 1.0_mm;
+};
+Result<ProjectText> projectFrom(const Json& json, const std::string& file);
+
+}  // namespace ilf::projects

@@ -1,0 +1,176 @@
+#include "projects/wearer_rig.h"
+
+#include <algorithm>
+
+#include "core/document/edit.h"
+#include "projects/safe_file.h"
+#include "projects/wearer_rig_json.h"
+
+namespace ilf::projects {
+namespace {
+
+constexpr std::size_t kMaxJsonBytes = std::size_t{64} << 20;
+const char* const kWearerFormat = "illuminatedfocus-wearer";
+const char* const kRigFormat = "illuminatedfocus-rig";
+const std::vector<std::string> kPresets{"one-arcmin", "depth-of-field", "landolt", "typed"};
+
+Json written(const LensAxis& axis, Json json) {
+    json.set("right_m", axis.right.si());
+    json.set("down_m", axis.down.si());
+    return json;
+}
+
+LensAxis axisFrom(JsonReader reader) {
+    return {Metre::fromSi(reader.number("right_m")), Metre::fromSi(reader.number("down_m"))};
+}
+
+Json written(const CameraObserver& camera, Json json) {
+    json.set("focal_length_m", camera.focalLength.si());
+    json.set("f_number", camera.fNumber);
+    json.set("focus_distance_m", camera.focusDistance.si());
+    json.set("pixel_pitch_m", camera.pixelPitch.si());
+    return json;
+}
+
+CameraObserver cameraFrom(JsonReader reader) {
+    return {Metre::fromSi(reader.number("focal_length_m")), reader.number("f_number"),
+            Metre::fromSi(reader.number("focus_distance_m")), Metre::fromSi(reader.number("pixel_pitch_m"))};
+}
+
+/// The value, unless reading it or checking its numbers found something wrong.
+template <class T>
+Result<T> judged(T value, const JsonReader& reader, const std::string& file) {
+    if (reader.problem()) return tl::unexpected(*reader.problem());
+    if (const auto good = checked(value); !good) return fail(Fault::badFile, file + ": " + good.error().what);
+    return value;
+}
+
+Result<Json> readJson(const fs::path& path) {
+    return readWhole(path, kMaxJsonBytes).and_then([&](const std::string& text) {
+        return Json::parse(text, spoken(path));
+    });
+}
+
+/// Keys of the file that is about to be replaced; a damaged or foreign file has none worth keeping.
+Json keysOf(const fs::path& path, const char* format) {
+    const auto json = readJson(path);
+    return json && json->word("format") == format ? *json : Json();
+}
+
+}  // namespace
+
+Json written(const Wearer& wearer, Json json) {
+    json.set("format", std::string(kWearerFormat));
+    json.set("version", kWearerVersion);
+    json.set("name", wearer.name);
+    json.set("pupil_m", wearer.pupil.si());
+    json.set("lens_to_pupil_m", wearer.lensToPupil.si());
+    json.set("eye_power_D", wearer.eyePower.si());
+    json.set("ametropia_D", wearer.ametropia.si());
+    json.set("age_years", wearer.ageYears);
+    if (wearer.measuredAccommodation) {
+        json.set("measured_accommodation_D", wearer.measuredAccommodation->si());
+    } else {
+        json.erase("measured_accommodation_D");
+    }
+    Json confusion = json.object("circle_of_confusion");
+    confusion.set("preset", kPresets[static_cast<std::size_t>(wearer.confusion.preset)]);
+    confusion.set("diameter_m", wearer.confusion.diameter.si());
+    json.set("circle_of_confusion", confusion);
+    json.set("lens_aperture_m", wearer.lensAperture.si());
+    Json axes = json.object("lens_axes");
+    axes.set("left", written(wearer.axes[0], axes.object("left")));
+    axes.set("right", written(wearer.axes[1], axes.object("right")));
+    json.set("lens_axes", axes);
+    if (wearer.camera) {
+        json.set("observer_camera", written(*wearer.camera, json.object("observer_camera")));
+    } else {
+        json.erase("observer_camera");
+    }
+    return json;
+}
+
+Result<Wearer> wearerFrom(const Json& json, const std::string& file) {
+    if (auto known = checkedFormat(json, file, kWearerFormat, kWearerVersion, "wearer file"); !known) {
+        return tl::unexpected(known.error());
+    }
+    JsonReader reader(json, file);
+    Wearer wearer;
+    wearer.name = reader.word("name");
+    wearer.pupil = Metre::fromSi(reader.number("pupil_m"));
+    wearer.lensToPupil = Metre::fromSi(reader.number("lens_to_pupil_m"));
+    wearer.eyePower = Dioptre::fromSi(reader.number("eye_power_D"));
+    wearer.ametropia = Dioptre::fromSi(reader.number("ametropia_D"));
+    wearer.ageYears = reader.number("age_years");
+    if (const auto measured = reader.optionalNumber("measured_accommodation_D")) {
+        wearer.measuredAccommodation = Dioptre::fromSi(*measured);
+    }
+    JsonReader confusion = reader.object("circle_of_confusion");
+    wearer.confusion.preset = static_cast<CircleOfConfusion::Preset>(confusion.choice("preset", kPresets));
+    wearer.confusion.diameter = Metre::fromSi(confusion.number("diameter_m", 0.0));
+    wearer.lensAperture = Metre::fromSi(reader.number("lens_aperture_m"));
+    JsonReader axes = reader.object("lens_axes");
+    wearer.axes = {axisFrom(axes.object("left")), axisFrom(axes.object("right"))};
+    if (reader.has("observer_camera")) wearer.camera = cameraFrom(reader.object("observer_camera"));
+    return judged(std::move(wearer), reader, file);
+}
+
+Json written(const Rig& rig, Json json) {
+    json.set("format", std::string(kRigFormat));
+    json.set("version", kRigVersion);
+    json.set("name", rig.name);
+    Json projector = json.object("projector");
+    projector.set("width_px", rig.projector.width);
+    projector.set("height_px", rig.projector.height);
+    json.set("projector", projector);
+    json.set("sweep_rate_Hz", rig.sweepRate.si());
+    json.set("slot_rate_Hz", rig.slotRate.si());
+    json.set("projector_delay_s", rig.projectorDelay.si());
+    json.set("lens_min_D", rig.lensMin.si());
+    json.set("lens_max_D", rig.lensMax.si());
+    if (rig.registration) {
+        json.set("projector_from_camera", std::vector<double>(rig.registration->m.begin(), rig.registration->m.end()));
+    } else {
+        json.erase("projector_from_camera");
+    }
+    json.set("provenance", rig.provenance);
+    return json;
+}
+
+Result<Rig> rigFrom(const Json& json, const std::string& file) {
+    if (auto known = checkedFormat(json, file, kRigFormat, kRigVersion, "rig file"); !known) {
+        return tl::unexpected(known.error());
+    }
+    JsonReader reader(json, file);
+    Rig rig;
+    rig.name = reader.word("name");
+    JsonReader projector = reader.object("projector");
+    rig.projector = {projector.whole("width_px"), projector.whole("height_px")};
+    rig.sweepRate = Hertz::fromSi(reader.number("sweep_rate_Hz"));
+    rig.slotRate = Hertz::fromSi(reader.number("slot_rate_Hz"));
+    rig.projectorDelay = Second::fromSi(reader.number("projector_delay_s"));
+    rig.lensMin = Dioptre::fromSi(reader.number("lens_min_D"));
+    rig.lensMax = Dioptre::fromSi(reader.number("lens_max_D"));
+    if (reader.has("projector_from_camera")) {
+        const std::vector<double> m = reader.numbers("projector_from_camera", 9);
+        rig.registration.emplace();
+        std::copy(m.begin(), m.end(), rig.registration->m.begin());
+    }
+    rig.provenance = reader.word("provenance");
+    return judged(std::move(rig), reader, file);
+}
+
+Result<Wearer> readWearer(const fs::path& path) {
+    return readJson(path).and_then([&](const Json& json) { return wearerFrom(json, spoken(path)); });
+}
+Result<Rig> readRig(const fs::path& path) {
+    return readJson(path).and_then([&](const Json& json) { return rigFrom(json, spoken(path)); });
+}
+Result<void> writeWearer(const fs::path& path, const Wearer& wearer) {
+    return writeAtomically(path, written(wearer, keysOf(path, kWearerFormat)).text());
+}
+Result<void> writeRig(const fs::path& path, const Rig& rig) {
+    return writeAtomically(path, written(rig, keysOf(path, kRigFormat)).text());
+}
+
+}  // namespace ilf::projects

@@ -1,0 +1,19 @@
+// Wearer and rig to JSON and back, for their own files and for those inside a project.
+#pragma once
+
+#include <string>
+
+#include "core/document/rig.h"
+#include "core/document/wearer.h"
+#include "projects/json.h"
+
+namespace ilf::projects {
+
+/// `before` is what the file held: the keys this version does not know are kept.
+Json written(const Wearer& wearer, Json before);
+Json written(const Rig& rig, Json before);
+
+Result<Wearer> wearerFrom(const Json& json, const std::string& file);
+Result<Rig> rigFrom(const Json& json, const std::string& file);
+
+}  // namespace ilf::projects
