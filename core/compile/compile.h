@@ -1,6 +1,8 @@
 // The compiler: a document and its plan become a program, tile by tile, and only the tiles an edit can reach.
 #pragma once
 
+#include <memory>
+
 #include "core/compile/program.h"
 #include "core/document/document.h"
 #include "core/plan/plan.h"
@@ -13,9 +15,11 @@ struct CompileCounters {
     int computed = 0;   ///< worked out now
     int unchanged = 0;  ///< taken from the previous compile
     int uniform = 0;    ///< same everywhere: nothing but a box
-    int seamTiles = 0;  ///< where blending was needed
+    int seamTiles = 0;  ///< of the raster: where blending was needed
     bool operator==(const CompileCounters&) const = default;
 };
+
+struct CompileParts;  // core/compile/parts.h
 
 /// The result, with all it was made from, so that the next compile can tell by comparison what changed.
 struct Compiled {
@@ -26,7 +30,13 @@ struct Compiled {
     /// program, projector frame, 255 = all of a region's light: what the overlay and the seam profile show.
     std::vector<TileGrid> levelWeights;
     CompileCounters counters;
-    bool operator==(const Compiled&) const = default;
+    /// Pictures on the way from masks to light, which the next compile shares where nothing changed.
+    std::shared_ptr<const CompileParts> parts;
+
+    /// Counters and parts tell how the result was reached, not what it is.
+    bool operator==(const Compiled& o) const {
+        return document == o.document && plan == o.plan && program == o.program && levelWeights == o.levelWeights;
+    }
 };
 
 /// Compiles. With `previous`, tiles that no difference between the two documents can reach are shared with it; the

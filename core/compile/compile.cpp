@@ -1,0 +1,333 @@
+#include "core/compile/compile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/compile/coverage.h"
+#include "core/compile/parts.h"
+
+namespace ilf {
+
+namespace {
+
+using Rects = std::vector<PixelRect<ProjectorFrame>>;
+
+/// Where two tiles differ, as a rectangle of the raster.
+PixelRect<ProjectorFrame> difference(const Tile& a, const Tile& b, int column, int row) {
+    PixelRect<ProjectorFrame> differs;
+    for (int y = 0; y < kTile; ++y) {
+        const auto* p = &a.v[static_cast<std::size_t>(y * kTile)];
+        const auto* q = &b.v[static_cast<std::size_t>(y * kTile)];
+        const auto [first, unused] = std::mismatch(p, p + kTile, q);
+        if (first == p + kTile) continue;
+        int last = kTile;
+        while (p[last - 1] == q[last - 1])
+            --last;
+        const int x0 = column * kTile + static_cast<int>(first - p), y0 = row * kTile + y;
+        differs = differs.united({x0, y0, column * kTile + last, y0 + 1});
+    }
+    return differs;
+}
+
+/// Puts a new tile in place. An equal one keeps the old box, so that what shares boxes downstream stays shared.
+/// Gives the pixels that changed.
+PixelRect<ProjectorFrame> replace(TileGrid& grid, int column, int row, const Box<Tile>& tile) {
+    const Box<Tile> old = grid.tile(column, row);
+    if (old.same(tile)) return {};
+    grid.setTile(column, row, tile);
+    const PixelRect<ProjectorFrame> differs = difference(*old, *grid.tile(column, row), column, row);
+    if (differs.empty()) grid.setTile(column, row, old);
+    return differs;
+}
+
+/// Tiles of the raster, as indices row by row.
+class Raster {
+public:
+    explicit Raster(const Lighting& light) : columns_(light.columns), rows_(light.rows) {}
+    int tiles() const { return columns_ * rows_; }
+    int column(int tile) const { return tile % columns_; }
+    int row(int tile) const { return tile / columns_; }
+    std::vector<int> all() const {
+        std::vector<int> tiles;
+        for (int t = 0; t < columns_ * rows_; ++t)
+            tiles.push_back(t);
+        return tiles;
+    }
+    /// Tiles that a change inside `changed` can reach from at most `reach` pixels away.
+    std::vector<int> reached(const Rects& changed, int reach) const {
+        std::vector<char> hit(static_cast<std::size_t>(columns_ * rows_), 0);
+        for (const PixelRect<ProjectorFrame>& rect : changed) {
+            const PixelRect<ProjectorFrame> r = rect.grown(reach).clipped({columns_ * kTile, rows_ * kTile});
+            for (int row = r.y0 / kTile; row * kTile < r.y1; ++row)
+                for (int column = r.x0 / kTile; column * kTile < r.x1; ++column)
+                    hit[static_cast<std::size_t>(row * columns_ + column)] = 1;
+        }
+        std::vector<int> tiles;
+        for (int t = 0; t < columns_ * rows_; ++t) {
+            if (hit[static_cast<std::size_t>(t)] != 0) tiles.push_back(t);
+        }
+        return tiles;
+    }
+
+private:
+    int columns_, rows_;
+};
+
+/// Works out `count` results side by side, then hands them over one after the other.
+template <class Result, class Make, class Take>
+void computed(const std::vector<int>& tiles, Make&& make, Take&& take) {
+    std::vector<Result> results(tiles.size());
+    parallelFor(static_cast<int>(tiles.size()),
+                [&](int i) { results[static_cast<std::size_t>(i)] = make(tiles[static_cast<std::size_t>(i)]); });
+    for (std::size_t i = 0; i < tiles.size(); ++i)
+        take(tiles[i], std::move(results[i]));
+}
+
+/// One compile in the making.
+class Compiler {
+public:
+    Compiler(const Document& document, const Plan& plan, const Compiled* previous)
+        : document_(document), regions_(activeRegions(document)), map_(projectorFromCamera(document)),
+          cameraFromProjector_(map_.inverted()), previous_(previous) {
+        if (previous_ != nullptr) {
+            parts_ = *previous_->parts;
+            for (const Region* region : activeRegions(previous_->document))
+                regionsBefore_.push_back(region);
+            images_ = previous_->program.images;
+            weights_ = previous_->levelWeights;
+            return;
+        }
+        const Size size = document.rig.projector;
+        parts_.light = lighting(document, plan);
+        parts_.coverage.assign(regions_.size(), TileGrid(size));
+        parts_.visible.assign(light().sheets.size(), TileGrid(size));
+        parts_.layers.lit.assign(light().layers.size(), TileGrid(size));
+        parts_.layers.seen = parts_.layers.lit;
+        parts_.layers.hard = TileGrid(size);
+        parts_.layers.blended.assign(static_cast<std::size_t>(light().columns * light().rows), false);
+        images_.assign(light().weights.size(), TileGrid(size));
+        weights_ = images_;
+    }
+
+    void run() {
+        const Raster raster(light());
+        const auto next = [&](const Rects& changed, int reach) {
+            return previous_ == nullptr ? raster.all() : raster.reached(changed, reach);
+        };
+        const Rects covered = cover(raster);
+        const Rects seen = uncover(raster, next(covered, 0));
+        const Rects lit = lightLayers(raster, next(seen, light().layerReach));
+        lightLevels(raster, next(lit, light().blendReach));
+    }
+
+    Compiled result(const Plan& plan) && {
+        Compiled compiled;
+        compiled.document = document_;
+        compiled.plan = plan;
+        compiled.program.images = std::move(images_);
+        compiled.levelWeights = std::move(weights_);
+        const int tiles = light().columns * light().rows * static_cast<int>(light().weights.size());
+        compiled.counters.tiles = tiles;
+        compiled.counters.computed = computed_;
+        compiled.counters.unchanged = tiles - computed_;
+        compiled.counters.seamTiles = static_cast<int>(std::ranges::count(parts_.layers.blended, true));
+        compiled.parts = std::make_shared<const CompileParts>(std::move(parts_));
+        return compiled;
+    }
+
+private:
+    const Lighting& light() const { return parts_.light; }
+
+    /// Every region's mask on the raster.
+    Rects cover(const Raster& raster) {
+        Rects changed;
+        const CoverageSampler sampler(document_.scene.size(), document_.rig.projector, map_);
+        const Mask blank(document_.scene.size());
+        for (std::size_t r = 0; r < regions_.size(); ++r) {
+            const Mask& mask = regions_[r]->mask.size() == blank.size() ? regions_[r]->mask : blank;
+            const Mask* before = nullptr;
+            if (previous_ != nullptr)
+                before = regionsBefore_[r]->mask.size() == blank.size() ? &regionsBefore_[r]->mask : &blank;
+            std::vector<int> tiles;
+            for (const int tile : raster.all()) {
+                if (before == nullptr || differ(*before, mask, sampler.source(raster.column(tile), raster.row(tile)))) {
+                    tiles.push_back(tile);
+                }
+            }
+            computed<Box<Tile>>(
+                tiles, [&](int tile) { return sampler.tile(mask, raster.column(tile), raster.row(tile)); },
+                [&](int tile, const Box<Tile>& made) {
+                    const auto rect = replace(parts_.coverage[r], raster.column(tile), raster.row(tile), made);
+                    if (!rect.empty()) changed.push_back(rect);
+                });
+        }
+        return changed;
+    }
+
+    static bool differ(const Mask& a, const Mask& b, PixelRect<CameraFrame> where) {
+        const PixelRect<CameraFrame> r = where.clipped(a.size());
+        for (int row = r.y0 / kTile; row * kTile < r.y1; ++row)
+            for (int column = r.x0 / kTile; column * kTile < r.x1; ++column)
+                if (!a.tile(column, row).same(b.tile(column, row))) return true;
+        return false;
+    }
+
+    /// What is seen of each sheet: the topmost region wins, by coverage; what nothing covers is background.
+    Rects uncover(const Raster& raster, const std::vector<int>& tiles) {
+        Rects changed;
+        computed<std::vector<Box<Tile>>>(
+            tiles, [&](int tile) { return visibleTiles(raster.column(tile), raster.row(tile)); },
+            [&](int tile, const std::vector<Box<Tile>>& made) {
+                for (std::size_t s = 0; s < made.size(); ++s) {
+                    const auto rect = replace(parts_.visible[s], raster.column(tile), raster.row(tile), made[s]);
+                    if (!rect.empty()) changed.push_back(rect);
+                }
+            });
+        return changed;
+    }
+
+    std::vector<Box<Tile>> visibleTiles(int column, int row) const {
+        const std::size_t sheets = light().sheets.size();
+        std::vector<Tile> sums(sheets);
+        std::vector<Box<Tile>> boxes(sheets, uniformTile(0));
+        std::vector<char> touched(sheets, 0);
+        std::array<std::uint8_t, kTile * kTile> left;
+        left.fill(255);
+        bool all = true, none = false;  // of the pixels still open to what lies below
+        for (std::size_t r = 0; r <= regions_.size() && !none; ++r) {
+            const auto sheet = static_cast<std::size_t>(light().sheetOf[r]);
+            const bool last = r == regions_.size();
+            const Box<Tile>& cover = last ? uniformTile(255) : parts_.coverage[r].tile(column, row);
+            if (cover.same(uniformTile(0))) continue;
+            if (all && cover.same(uniformTile(255))) {
+                boxes[sheet] = cover;
+                return boxes;
+            }
+            Tile& sum = sums[sheet];
+            touched[sheet] = 1;
+            all = false;
+            unsigned open = 0;
+            for (std::size_t i = 0; i < left.size(); ++i) {
+                const unsigned product = unsigned{cover->v[i]} * left[i] + 128;
+                const auto take = static_cast<std::uint8_t>((product + (product >> 8)) >> 8);  // exactly rounded / 255
+                sum.v[i] = static_cast<std::uint8_t>(sum.v[i] + take);
+                left[i] = static_cast<std::uint8_t>(left[i] - take);
+                open |= left[i];
+            }
+            none = open == 0;
+        }
+        for (std::size_t s = 0; s < sheets; ++s) {
+            if (touched[s] != 0) boxes[s] = boxed(sums[s]);
+        }
+        return boxes;
+    }
+
+    Rects lightLayers(const Raster& raster, const std::vector<int>& tiles) {
+        Rects changed;
+        const Visible visible{document_, light(), cameraFromProjector_, parts_.visible};
+        computed<LayerTiles>(
+            tiles, [&](int tile) { return layerTiles(visible, raster.column(tile), raster.row(tile)); },
+            [&](int tile, const LayerTiles& made) {
+                const auto put = [&](TileGrid& grid, const Box<Tile>& box) {
+                    const auto rect = replace(grid, raster.column(tile), raster.row(tile), box);
+                    if (!rect.empty()) changed.push_back(rect);
+                };
+                for (std::size_t l = 0; l < made.lit.size(); ++l) {
+                    put(parts_.layers.lit[l], made.lit[l]);
+                    put(parts_.layers.seen[l], made.seen[l]);
+                }
+                put(parts_.layers.hard, made.hard);
+                parts_.layers.blended[static_cast<std::size_t>(tile)] = made.blended;
+            });
+        return changed;
+    }
+
+    void lightLevels(const Raster& raster, const std::vector<int>& tiles) {
+        computed<LevelTiles>(
+            tiles, [&](int tile) { return levelTiles(light(), parts_.layers, raster.column(tile), raster.row(tile)); },
+            [&](int tile, const LevelTiles& made) {
+                for (std::size_t l = 0; l < made.images.size(); ++l) {
+                    replace(images_[l], raster.column(tile), raster.row(tile), made.images[l]);
+                    replace(weights_[l], raster.column(tile), raster.row(tile), made.weights[l]);
+                }
+            });
+        computed_ = static_cast<int>(tiles.size() * images_.size());
+    }
+
+    const Document& document_;
+    std::vector<const Region*> regions_, regionsBefore_;
+    Homography<ProjectorFrame, CameraFrame> map_;
+    Homography<CameraFrame, ProjectorFrame> cameraFromProjector_;
+    const Compiled* previous_;
+    CompileParts parts_;
+    std::vector<TileGrid> images_, weights_;
+    int computed_ = 0;
+};
+
+int uniformTiles(const std::vector<LightImage>& images) {
+    int count = 0;
+    for (const LightImage& image : images) {
+        for (int row = 0; row < image.rows(); ++row) {
+            for (int column = 0; column < image.columns(); ++column)
+                count += image.isUniform(column, row, image.tile(column, row)->v[0]) ? 1 : 0;
+        }
+    }
+    return count;
+}
+
+Result<void> compilable(const Document& document) {
+    const Size projector = document.rig.projector;
+    if (projector.width <= 0 || projector.height <= 0)
+        return fail(Fault::outOfRange, "The rig's projector has no pixels: type its width and height.");
+    const double det = projectorFromCamera(document).determinant();
+    if (!std::isfinite(det) || det == 0.0)
+        return fail(Fault::outOfRange, "The rig's registration maps the picture onto a line: register it again.");
+    if (!isFinite(document.seam.feather) || document.seam.feather < 0.0_m)
+        return fail(Fault::outOfRange, "The feather must be 0 mm or more.");
+    std::vector<const Region*> surfaces = activeRegions(document);
+    surfaces.push_back(&*document.background);
+    for (const Region* region : surfaces) {
+        if (const auto vergence = affineVergence(*region); !vergence) return tl::unexpected(vergence.error());
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<Compiled> compile(const Document& document, const Plan& plan, const Compiled* previous) {
+    if (!document.background) return fail(Fault::notFound, "The project has no background: add one.");
+    const bool shared = previous != nullptr && previous->parts != nullptr &&
+                        sameButMasks(previous->document, previous->plan, document, plan);
+    if (const auto good = compilable(document); !good) return tl::unexpected(good.error());
+
+    Compiled compiled;
+    if (!plan.sweeps() || plan.levels.empty()) {
+        // Nothing to blur: all light is one even picture, whatever was painted.
+        const Size size = document.rig.projector;
+        compiled.document = document;
+        compiled.plan = plan;
+        compiled.program.images = {TileGrid(size, 255)};
+        compiled.levelWeights.assign(plan.levels.size(), TileGrid(size, 0));
+        if (!plan.levels.empty()) compiled.levelWeights.front() = compiled.program.images.front();
+        compiled.counters.tiles = compiled.program.images.front().columns() * compiled.program.images.front().rows();
+        compiled.counters.unchanged = compiled.counters.tiles;
+        compiled.program.imageOfSlot.assign(static_cast<std::size_t>(slotsPerSweep(document.rig)), 0);
+    } else {
+        Compiler compiler(document, plan, shared ? previous : nullptr);
+        compiler.run();
+        compiled = std::move(compiler).result(plan);
+        for (const Slot& slot : plan.slots)
+            compiled.program.imageOfSlot.push_back(slot.level ? *slot.level : Program::kDark);
+    }
+    compiled.counters.uniform = uniformTiles(compiled.program.images);
+    compiled.program.waveform = plan.waveform;
+    compiled.program.slotRate = document.rig.slotRate;
+    compiled.program.projectorDelay = document.rig.projectorDelay;
+    compiled.program.projector = document.rig.projector;
+    if (const auto good = checked(compiled.program); !good) return tl::unexpected(good.error());
+    return compiled;
+}
+
+}  // namespace ilf

@@ -1,0 +1,42 @@
+// Masks seen from the projector: how much of each projector pixel a region covers.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/geometry.h"
+#include "core/base/tile_grid.h"
+
+namespace ilf {
+
+/// Samples camera-frame masks on projector pixels. A projector pixel smaller than a camera pixel is interpolated
+/// (bilinear); a larger one is averaged over its area, so that a mask thinner than a projector pixel dims it instead of
+/// flickering in and out. Outside the picture coverage is 0: what no region covers is background.
+class CoverageSampler {
+public:
+    CoverageSampler(Size picture, Size projector, const Homography<ProjectorFrame, CameraFrame>& projectorFromCamera);
+
+    /// One projector tile of `mask`. The result depends on nothing but the mask's values near it.
+    Box<Tile> tile(const Mask& mask, int column, int row) const;
+
+    /// Camera pixels that can reach this projector tile.
+    PixelRect<CameraFrame> source(int column, int row) const;
+
+private:
+    /// Weights (sum 256) of consecutive camera pixels for one projector pixel along one axis.
+    struct Tap {
+        int first = 0;
+        std::vector<std::uint16_t> weights;
+    };
+    static std::vector<Tap> taps(int count, double scale, double offset);
+    Tile separable(const std::vector<std::uint8_t>& pixels, PixelRect<CameraFrame> at, int column, int row) const;
+    Tile supersampled(const std::vector<std::uint8_t>& pixels, PixelRect<CameraFrame> at, int column, int row) const;
+
+    Size picture_;
+    Homography<CameraFrame, ProjectorFrame> cameraFromProjector_;
+    bool axisAligned_ = false;  ///< scale and shift only: rows and columns are filtered one after the other
+    bool identity_ = false;     ///< same pixels: tiles are shared instead of sampled
+    std::vector<Tap> across_, down_;
+};
+
+}  // namespace ilf

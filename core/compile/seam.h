@@ -1,0 +1,33 @@
+// The light of one tile: layers lit so that, magnified and blurred, they add up to even light with the base level.
+#pragma once
+
+#include <vector>
+
+#include "core/compile/border.h"
+
+namespace ilf {
+
+/// One tile of every layer, in units of its level's images (255 = full light of the projector).
+struct LayerTiles {
+    std::vector<Box<Tile>> lit;   ///< one per layer: what the projector lights
+    std::vector<Box<Tile>> seen;  ///< linear blending only, one per layer: 255 * m as it appears
+    Box<Tile> hard;               ///< above 0 beside a depth step: masks as painted, no blending, no compensation
+    bool blended = false;         ///< a border was near
+};
+LayerTiles layerTiles(const Visible& visible, int column, int row);
+
+/// Layers over the whole raster.
+struct LayerGrids {
+    std::vector<TileGrid> lit, seen;
+    TileGrid hard;
+    std::vector<bool> blended;  ///< per tile, row by row
+};
+
+/// One tile of the image and of the weight of every level, from the layers around it.
+struct LevelTiles {
+    std::vector<Box<Tile>> images;   ///< per level, 255 = full light
+    std::vector<Box<Tile>> weights;  ///< per level, 255 = all light of a region
+};
+LevelTiles levelTiles(const Lighting& light, const LayerGrids& layers, int column, int row);
+
+}  // namespace ilf
