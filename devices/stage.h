@@ -1,12 +1,28 @@
 // Lens and projector as one machine that plays programs.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "core/compile/program.h"
 
 namespace ilf::devices {
+
+enum class LightMode {
+    steady,   ///< uniform white: safe
+    slotted,  ///< a program's slots, sweep after sweep
+};
+enum class LensMode { rest, holding, sweeping };
+
+/// What the devices said last, for status lines.
+struct StageReport {
+    LightMode light = LightMode::steady;
+    LensMode lens = LensMode::rest;
+    Dioptre lensPower, low, high;
+    std::string projectorLine, lensLine;  ///< one line each: name and state
+    bool well = false;                    ///< they answered
+    bool simulated = true;
+    bool operator==(const StageReport&) const = default;
+};
 
 /// Playing is in two steps so that a new program never appears half on one device and half on the other: `load` sends
 /// everything beside what is playing, `swap` changes over at the start of the next sweep. Calls come from one thread.
@@ -27,6 +43,8 @@ public:
     /// Works from any state and never fails (a device that cannot be reached is left to its own power-on state, which
     /// is the same).
     virtual void safeLight() noexcept = 0;
+    /// What the last heartbeat or swap found.
+    virtual StageReport report() const = 0;
     /// "simulated lens and projector", "emulated ..." - for status lines.
     virtual std::string name() const = 0;
 };

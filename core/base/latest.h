@@ -1,6 +1,7 @@
 // A letterbox for one value between two threads: the reader always gets the newest.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -31,6 +32,12 @@ public:
     bool waiting() const {
         const std::scoped_lock lock(mutex_);
         return value_.has_value();
+    }
+    /// Waits for a value at most this long.
+    std::optional<T> takeWithin(std::stop_token stop, std::chrono::nanoseconds time) {
+        std::unique_lock lock(mutex_);
+        if (!arrived_.wait_for(lock, stop, time, [&] { return value_.has_value(); })) return std::nullopt;
+        return std::exchange(value_, std::nullopt);
     }
     std::optional<T> tryTake() {
         const std::scoped_lock lock(mutex_);

@@ -1,0 +1,139 @@
+#include "app/output_core/player.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "devices/link/runtime_directory.h"
+
+namespace ilf::app {
+namespace {
+
+// Half of what a device may stay silent before the studio would call it gone.
+constexpr std::chrono::milliseconds kHeartbeat{100};
+
+}  // namespace
+
+Player::Player(std::unique_ptr<devices::Stage> stage, std::function<void()> changed)
+    : stage_(std::move(stage)), changed_(std::move(changed)),
+      // Never the number of a player before this one: a take meant for that one must not end this one's hold.
+      lastHold_(static_cast<std::uint64_t>(devices::monotonic_ns())) {
+    status_.pid = getpid();
+    status_.supervisorPid = getppid();
+    status_.hold = lastHold_;
+    thread_ = std::jthread([this](std::stop_token stop) { run(std::move(stop)); });
+}
+
+void Player::play(Order order) {
+    if (const auto before = orders_.tryTake(); before && *before) ++replaced_;
+    orders_.put(std::move(order));
+}
+
+void Player::safeLight() {
+    ++safeLightsAsked_;
+    if (const auto before = orders_.tryTake(); before && *before) ++replaced_;
+    orders_.put(std::nullopt);
+}
+
+void Player::run(std::stop_token stop) {
+    stage_->safeLight();
+    while (!stop.stop_requested()) {
+        try {
+            auto order = orders_.takeWithin(stop, kHeartbeat);
+            if (stop.stop_requested()) break;
+            // Counted, not posted: a program that comes right behind it cannot make it disappear.
+            if (const auto asked = safeLightsAsked_.load(); asked != safeLightsDone_) {
+                safeLightsDone_ = asked;
+                hold();
+                stage_->safeLight();
+            }
+            if (order && *order)
+                obey(**std::move(order));
+            else
+                beat();
+            say();
+        } catch (const std::exception& error) {
+            fault(std::string("The output core failed: ") + error.what() + ".");
+        }
+    }
+    stage_->safeLight();
+    say();
+}
+
+void Player::hold() {
+    status_.hold = ++lastHold_;
+    status_.revisionPlayed = 0;
+    status_.contentHashPlayed = 0;
+}
+
+void Player::fault(const std::string& what) {
+    status_.fault = what;
+    ++status_.faults;
+    hold();
+    give();  // said first: a device that does not answer makes safe light slow
+    stage_->safeLight();
+}
+
+void Player::obey(Order order) {
+    const bool released = order.why == devices::Why::take && order.hold == status_.hold;
+    if (status_.hold != 0 && !released) {
+        status_.lastRefusal = "Safe light is held; press TAKE to play again.";
+        ++refused_;
+        return;
+    }
+    if (const auto fine = checked(order.program); !fine) {
+        status_.lastRefusal = fine.error().what;
+        return;
+    }
+    const auto loaded = stage_->load(order.program);
+    const std::int64_t loaded_ns = devices::monotonic_ns();
+    const auto shown = loaded ? stage_->swap() : loaded;
+    if (!shown) return fault(shown.error().what);
+    well_ = true;
+    status_.hold = 0;
+    status_.fault.clear();
+    status_.lastRefusal.clear();
+    status_.revisionPlayed = order.revision;
+    status_.contentHashPlayed = order.hash;
+    ++status_.swaps;
+    status_.received_ns = order.received_ns;
+    status_.loaded_ns = loaded_ns;
+    status_.swapped_ns = devices::monotonic_ns();
+}
+
+void Player::beat() {
+    const auto alive = stage_->heartbeat();
+    if (alive) {
+        well_ = true;
+        return;
+    }
+    // One fault for each loss, not one for each beat while it lasts; safe light is asked for until somebody listens.
+    if (std::exchange(well_, false) || status_.hold == 0)
+        fault(alive.error().what);
+    else
+        stage_->safeLight();
+}
+
+void Player::say() {
+    const auto report = stage_->report();
+    status_.light = report.light;
+    status_.lens = report.lens;
+    status_.lensPower = report.lensPower;
+    status_.low = report.low;
+    status_.high = report.high;
+    status_.projectorLine = report.projectorLine;
+    status_.lensLine = report.lensLine;
+    status_.projectorWell = status_.lensWell = report.well;
+    status_.simulated = report.simulated;
+    give();
+}
+
+void Player::give() {
+    status_.droppedUpdates = refused_ + replaced_.load();
+    given_.put(status_);
+    changed_();
+}
+
+}  // namespace ilf::app

@@ -1,0 +1,55 @@
+#include "devices/simulated/device_client.h"
+
+#include <thread>
+
+#include "devices/link/runtime_directory.h"
+
+namespace ilf::devices {
+
+DeviceClient::DeviceClient(const std::filesystem::path& runtimeDirectory, std::chrono::milliseconds timeout)
+    : address_(devicesAddress(runtimeDirectory)), client_(address_), timeout_(timeout) {}
+
+Result<Body> DeviceClient::call(const Body& request) {
+    using Clock = std::chrono::steady_clock;
+    const auto lost = [&](const char* how) {
+        // An answer that comes late must not be taken for that of the next question's devices.
+        client_.reconnect();
+        return fail(Fault::device, std::string("The simulated lens and projector ") + how +
+                                       ". The light is steady once they are back; check that their process runs.");
+    };
+    // A whole program takes longer than a word.
+    const auto limit = std::holds_alternative<ProgramUpdate>(request) ? 5 * timeout_ : timeout_;
+    const auto deadline = Clock::now() + limit;
+    const std::uint64_t id = ++lastId_;
+    // A local socket is connected within a few milliseconds if somebody listens.
+    constexpr std::chrono::milliseconds kConnect{100};
+    if (!client_.send({id, request}, kConnect)) return lost("are not there");
+    while (true) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+        if (left.count() <= 0) return lost("do not answer");
+        auto answer = client_.receive(left);
+        if (!answer) continue;
+        if (!*answer) return tl::unexpected(answer->error());
+        if ((*answer)->id == id) return std::move((*answer)->body);
+    }
+}
+
+std::int64_t DeviceClient::now_ns() { return monotonic_ns(); }
+
+void DeviceClient::waitUntil(std::int64_t time_ns) {
+    const std::int64_t left = time_ns - monotonic_ns();
+    if (left > 0) std::this_thread::sleep_for(std::chrono::nanoseconds(left));
+}
+
+Result<void> DeviceClient::safeLight() {
+    Result<void> done;
+    for (int tries = 0; tries < 3; ++tries) {
+        const auto steady = ask<Done>(*this, SteadyLight{});
+        const auto rest = steady ? ask<Done>(*this, LensToRest{}) : steady;
+        if (rest) return {};
+        done = tl::unexpected(rest.error());
+    }
+    return done;
+}
+
+}  // namespace ilf::devices

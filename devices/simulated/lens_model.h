@@ -1,0 +1,42 @@
+// How a tunable lens follows its orders: the share of a change that is still missing decays exponentially. Simulated.
+#pragma once
+
+#include <cstdint>
+
+#include "core/plan/plan.h"
+
+namespace ilf::devices {
+
+/// Time constant of the settling. The data sheet's 25 ms to within 5 % read as first order: 25 ms / ln 20. (The real
+/// lens rings at about 60 Hz; the emulator of the calibration issue does that.)
+inline constexpr Second kLensTimeConstant = 8.3_ms;
+
+/// Mean m and amplitude a of the wave each approach what was told, from t0 on, times in CLOCK_MONOTONIC nanoseconds:
+///     P(t) = m + dm e - (a + da e) cos(2 pi (t - t0 - tLow) rate),   e = exp(-(t - t0) / tau)
+/// dm, da: what was missing at t0. A value: `told` gives the lens that follows a new wave.
+class LensModel {
+public:
+    /// At rest, 0 D.
+    LensModel() = default;
+
+    LensModel told(const Waveform& wave, std::int64_t now_ns) const;
+    const Waveform& wave() const { return wave_; }
+    /// The sweeps start at this time and every 1 / rate after it.
+    std::int64_t started_ns() const { return started_ns_; }
+
+    Dioptre powerAt(std::int64_t now_ns) const;
+    /// Bound of |power - told wave| from now on; the old wave's amplitude counts whole, whatever its phase.
+    Dioptre errorAt(std::int64_t now_ns) const;
+    /// When errorAt falls to `budget`.
+    std::int64_t settled_ns(Dioptre budget) const;
+    /// The first start of a sweep at or after `now_ns`.
+    std::int64_t nextSweepStart_ns(std::int64_t now_ns) const;
+
+private:
+    Waveform wave_;
+    Dioptre missing_;  ///< bound of what was missing when the wave began
+    Dioptre missingMean_, missingAmplitude_;
+    std::int64_t started_ns_ = 0;
+};
+
+}  // namespace ilf::devices
