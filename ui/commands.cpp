@@ -1,7 +1,7 @@
 #include "ui/commands.h"
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 #include "ui/keys.h"
@@ -78,8 +78,7 @@ constexpr auto table = std::to_array<CommandInfo>({
     {C::lockRegion, "region.lock", "Lock region", "Scene", none, none, "Keep its pixels from being painted."},
     {C::soloRegion, "region.solo", "Solo region", "Scene", none, none, "Only soloed regions take part."},
     {C::growRegion, "region.grow", "Grow region", "Scene", ctrl(keys::rightBracket), none, "Larger by 4 pixels."},
-    {C::shrinkRegion, "region.shrink", "Shrink region", "Scene", ctrl(keys::leftBracket), none,
-     "Smaller by 4 pixels."},
+    {C::shrinkRegion, "region.shrink", "Shrink region", "Scene", ctrl(keys::leftBracket), none, "Smaller by 4 pixels."},
     {C::invertRegion, "region.invert", "Invert region", "Scene", ctrl('I'), none, "Swap inside and outside."},
     {C::lookFocus, "region.look.focus", "Look: focus", "Scene", plain(keys::digit1), none,
      "Lit while the lens is at rest: seen sharp."},
@@ -125,7 +124,8 @@ constexpr auto table = std::to_array<CommandInfo>({
     {C::acknowledgeFault, "rig.acknowledge", "Acknowledge fault", "Rig", none, none,
      "The fault was seen; its chip shows the device's state again."},
 
-    {C::shortcuts, "help.shortcuts", "Shortcuts", "Help", shift(keys::slash), plain(keys::f1), "All keys on one sheet."},
+    {C::shortcuts, "help.shortcuts", "Shortcuts", "Help", shift(keys::slash), plain(keys::f1),
+     "All keys on one sheet."},
     {C::about, "help.about", "About", "Help", none, none, "Version, licence and the paper."},
 });
 
@@ -134,10 +134,22 @@ struct Named {
     const char* name;
 };
 constexpr auto names = std::to_array<Named>({
-    {keys::space, "Space"},   {keys::escape, "Esc"},     {keys::enter, "Enter"}, {keys::kpEnter, "Keypad Enter"},
-    {keys::tab, "Tab"},       {keys::backspace, "Backspace"}, {keys::insert, "Ins"}, {keys::del, "Del"},
-    {keys::right, "Right"},   {keys::left, "Left"},      {keys::down, "Down"},   {keys::up, "Up"},
-    {keys::pageUp, "PageUp"}, {keys::pageDown, "PageDown"}, {keys::home, "Home"}, {keys::end, "End"},
+    {keys::space, "Space"},
+    {keys::escape, "Esc"},
+    {keys::enter, "Enter"},
+    {keys::kpEnter, "Keypad Enter"},
+    {keys::tab, "Tab"},
+    {keys::backspace, "Backspace"},
+    {keys::insert, "Ins"},
+    {keys::del, "Del"},
+    {keys::right, "Right"},
+    {keys::left, "Left"},
+    {keys::down, "Down"},
+    {keys::up, "Up"},
+    {keys::pageUp, "PageUp"},
+    {keys::pageDown, "PageDown"},
+    {keys::home, "Home"},
+    {keys::end, "End"},
 });
 
 }  // namespace

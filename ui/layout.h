@@ -17,8 +17,8 @@ struct Rect {
 
 /// What the operator can drag. Pixels at scale 1; `layout` clamps them to what the window can give.
 struct PanelSizes {
-    double side = 324;    ///< width of the panels on the right
-    double charts = 190;  ///< height of the charts
+    double side = 324;      ///< width of the panels on the right
+    double charts = 190;    ///< height of the charts
     double regions = 0.36;  ///< share of the side column given to the list
     bool hidden = false;    ///< only the picture (Tab)
     bool operator==(const PanelSizes&) const = default;
@@ -28,13 +28,13 @@ struct PanelSizes {
 inline constexpr double kLiveTarget = 44;
 
 struct Layout {
-    Rect top;       ///< menu, chips, TAKE, SAFE LIGHT
-    Rect tools;     ///< left
-    Rect header;    ///< canvas tabs
-    Rect canvas;    ///< the picture
-    Rect regions;   ///< list
-    Rect selected;  ///< the selected region; empty when it is a page among `pages`
-    Rect pages;     ///< wearer, seam, rig, scene, history
+    Rect top;                     ///< menu, chips, TAKE, SAFE LIGHT
+    Rect tools;                   ///< left
+    Rect header;                  ///< canvas tabs
+    Rect canvas;                  ///< the picture
+    Rect regions;                 ///< list
+    Rect selected;                ///< the selected region; empty when it is a page among `pages`
+    Rect pages;                   ///< wearer, seam, rig, scene, history
     Rect sweep, blurRange, seam;  ///< charts
     Rect status;
     Rect sideSplitter, chartSplitter, regionsSplitter;  ///< overlay the borders; a drag changes PanelSizes

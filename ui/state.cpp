@@ -38,7 +38,8 @@ std::string layoutText(const State& state) {
     out << "page " << static_cast<int>(state.page) << '\n';
     brush("brush", state.brush);
     brush("eraser", state.eraser);
-    for (const Hint hint : state.hintsUsed) out << "hint " << static_cast<int>(hint) << '\n';
+    for (const Hint hint : state.hintsUsed)
+        out << "hint " << static_cast<int>(hint) << '\n';
     return out.str();
 }
 

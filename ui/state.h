@@ -51,6 +51,8 @@ struct CanvasGesture {
     Point<WidgetFrame> startAt, lastAt;
     std::vector<Point<CameraFrame>> points;
     std::optional<double> carry;  ///< of spacedDabs
+    Distance original;            ///< of `region` when a distance or anchor drag began
+    int button = 0;               ///< 0 left, 1 right, 2 middle
     bool edited = false;          ///< a preview was sent: it must be committed or cancelled
 };
 
@@ -98,7 +100,7 @@ struct State {
     int slot = 0;
     double divider = 0.5;  ///< of the compare view, share of the canvas
     bool fitted = true;
-    double zoom = 1.0;  ///< window pixels per picture pixel; follows the window while `fitted`
+    double zoom = 1.0;          ///< window pixels per picture pixel; follows the window while `fitted`
     Point<CameraFrame> centre;  ///< shown in the middle of the canvas
 
     PanelSizes panels;

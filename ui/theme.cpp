@@ -11,18 +11,24 @@ namespace ilf::ui {
 
 ImU32 lookColour(Look look) {
     switch (look) {
-        case Look::focus: return colour::focus;
-        case Look::blur: return colour::blur;
-        case Look::neutral: break;
+    case Look::focus:
+        return colour::focus;
+    case Look::blur:
+        return colour::blur;
+    case Look::neutral:
+        break;
     }
     return colour::neutral;
 }
 
 const char* lookName(Look look) {
     switch (look) {
-        case Look::focus: return "focus";
-        case Look::blur: return "blur";
-        case Look::neutral: break;
+    case Look::focus:
+        return "focus";
+    case Look::blur:
+        return "blur";
+    case Look::neutral:
+        break;
     }
     return "neutral";
 }
@@ -86,7 +92,8 @@ void applyTheme(double scale) {
     style.ScaleAllSizes(static_cast<float>(scale));
 
     const auto set = [&](ImGuiCol slot, ImU32 value) { style.Colors[slot] = ImGui::ColorConvertU32ToFloat4(value); };
-    for (int i = 0; i < ImGuiCol_COUNT; ++i) set(i, colour::line);
+    for (int i = 0; i < ImGuiCol_COUNT; ++i)
+        set(i, colour::line);
     set(ImGuiCol_Text, colour::text);
     set(ImGuiCol_TextDisabled, colour::dim);
     set(ImGuiCol_WindowBg, colour::panel);

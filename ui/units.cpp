@@ -28,8 +28,8 @@ constexpr auto lengths = std::to_array<Suffix>({{"m", 1.0},
                                                 {"D", 1.0, true}});
 constexpr auto powers = std::to_array<Suffix>(
     {{"D", 1.0}, {"dpt", 1.0}, {"dptr", 1.0}, {"m", 1.0, true}, {"cm", 1e-2, true}, {"mm", 1e-3, true}});
-constexpr auto angles = std::to_array<Suffix>(
-    {{"deg", 1.0}, {"\u00b0", 1.0}, {"degrees", 1.0}, {"rad", 180.0 / std::numbers::pi}});
+constexpr auto angles =
+    std::to_array<Suffix>({{"deg", 1.0}, {"\u00b0", 1.0}, {"degrees", 1.0}, {"rad", 180.0 / std::numbers::pi}});
 constexpr auto rates = std::to_array<Suffix>({{"Hz", 1.0}, {"hz", 1.0}, {"kHz", 1e3}});
 constexpr auto times = std::to_array<Suffix>({{"ms", 1e-3}, {"s", 1.0}, {"us", 1e-6}, {"\u00b5s", 1e-6}});
 constexpr auto years = std::to_array<Suffix>({{"years", 1.0}, {"y", 1.0}, {"a", 1.0}, {"year", 1.0}});
@@ -44,16 +44,26 @@ struct Kind {
 
 Kind kind(Unit unit) {
     switch (unit) {
-        case Unit::metre: return {lengths, 1.0, "0.5, 50 cm, 500 mm or 2 dpt"};
-        case Unit::millimetre: return {lengths, 1e-3, "4, 4 mm or 0.4 cm"};
-        case Unit::dioptre: return {powers, 1.0, "2, 2 D or 0.5 m"};
-        case Unit::degree: return {angles, 1.0, "60, 60 deg or 1.05 rad"};
-        case Unit::hertz: return {rates, 1.0, "60, 60 Hz or 0.96 kHz"};
-        case Unit::millisecond: return {times, 1e-3, "0.46, 0.46 ms or 460 us"};
-        case Unit::year: return {years, 1.0, "28 or 28 years"};
-        case Unit::pixel: return {pixels, 1.0, "40 or 40 px"};
-        case Unit::percent: return {shares, 1e-2, "80 or 80 %"};
-        case Unit::number: break;
+    case Unit::metre:
+        return {lengths, 1.0, "0.5, 50 cm, 500 mm or 2 dpt"};
+    case Unit::millimetre:
+        return {lengths, 1e-3, "4, 4 mm or 0.4 cm"};
+    case Unit::dioptre:
+        return {powers, 1.0, "2, 2 D or 0.5 m"};
+    case Unit::degree:
+        return {angles, 1.0, "60, 60 deg or 1.05 rad"};
+    case Unit::hertz:
+        return {rates, 1.0, "60, 60 Hz or 0.96 kHz"};
+    case Unit::millisecond:
+        return {times, 1e-3, "0.46, 0.46 ms or 460 us"};
+    case Unit::year:
+        return {years, 1.0, "28 or 28 years"};
+    case Unit::pixel:
+        return {pixels, 1.0, "40 or 40 px"};
+    case Unit::percent:
+        return {shares, 1e-2, "80 or 80 %"};
+    case Unit::number:
+        break;
     }
     return {{}, 1.0, "1.4"};
 }
@@ -113,23 +123,31 @@ std::string formatted(double si, Unit unit) {
     const double size = std::abs(si);
     if (std::isinf(si)) return si > 0 ? "\u221e" : "-\u221e";
     switch (unit) {
-        case Unit::metre:
-            if (size >= 9.9995) return decimals(si, 1, " m");
-            if (size >= 0.09995) return decimals(si, 3, " m");
-            if (size == 0.0) return "0 m";
-            if (size >= 1e-3) return decimals(si * 1e3, 1, " mm");
-            return decimals(si * 1e6, 1, " um");
-        case Unit::millimetre:
-            if (size != 0.0 && size < 1e-3) return decimals(si * 1e6, 1, " um");
-            return decimals(si * 1e3, size < 0.1 ? 2 : 1, " mm");
-        case Unit::dioptre: return decimals(si, 2, " D");
-        case Unit::degree: return decimals(si, 1, "\u00b0");
-        case Unit::hertz: return decimals(si, size == std::floor(size) ? 0 : 1, " Hz");
-        case Unit::millisecond: return decimals(si * 1e3, 2, " ms");
-        case Unit::year: return decimals(si, 0, " years");
-        case Unit::pixel: return decimals(si, size < 10.0 ? 1 : 0, " px");
-        case Unit::percent: return decimals(si * 1e2, 0, " %");
-        case Unit::number: return decimals(si, 2, "");
+    case Unit::metre:
+        if (size >= 9.9995) return decimals(si, 1, " m");
+        if (size >= 0.09995) return decimals(si, 3, " m");
+        if (size == 0.0) return "0 m";
+        if (size >= 1e-3) return decimals(si * 1e3, 1, " mm");
+        return decimals(si * 1e6, 1, " um");
+    case Unit::millimetre:
+        if (size != 0.0 && size < 1e-3) return decimals(si * 1e6, 1, " um");
+        return decimals(si * 1e3, size < 0.1 ? 2 : 1, " mm");
+    case Unit::dioptre:
+        return decimals(si, 2, " D");
+    case Unit::degree:
+        return decimals(si, 1, "\u00b0");
+    case Unit::hertz:
+        return decimals(si, size == std::floor(size) ? 0 : 1, " Hz");
+    case Unit::millisecond:
+        return decimals(si * 1e3, 2, " ms");
+    case Unit::year:
+        return decimals(si, 0, " years");
+    case Unit::pixel:
+        return decimals(si, size < 10.0 ? 1 : 0, " px");
+    case Unit::percent:
+        return decimals(si * 1e2, 0, " %");
+    case Unit::number:
+        return decimals(si, 2, "");
     }
     return {};
 }

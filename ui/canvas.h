@@ -1,0 +1,37 @@
+// The picture in the middle: what the canvas' parts share.
+#pragma once
+
+#include <imgui.h>
+
+#include <optional>
+
+#include "ui/panel.h"
+#include "ui/viewport.h"
+
+namespace ilf::ui {
+
+/// The topmost region that takes part and covers the pixel at least half; nullptr over the background.
+const Region* regionAt(const Document& document, Point<CameraFrame> at);
+/// The distance at which the optical centres are drawn: of the selected region, or of what the plan focuses on.
+Metre markDistance(const Panel& p);
+/// A distance whose every point is `ratio` times as far; nothing for a depth map, which is measured.
+std::optional<Distance> scaled(const Distance& distance, double ratio);
+/// Where a region's distance badge sits: the middle of what it covers, in picture pixels.
+std::optional<Point<CameraFrame>> badgePlace(const Document& document, const Region& region);
+
+/// Radius of handles in window pixels at scale 1; the reach of a click is a little more.
+inline constexpr double kHandle = 7.0, kReach = 11.0;
+
+void zoomTo(State& state, double zoom);
+/// Closes the polygon being drawn into the selected region (a new one when none is selected).
+void finishPolygon(const View& view, State& state, Requests& requests);
+
+Viewport viewportOf(const Panel& p);
+/// Presses, drags and releases of this frame, by the pointer's whole trail.
+void canvasGestures(Panel& p, const Viewport& viewport, bool hovered, bool activated);
+/// Textures of the current view.
+void drawPictures(Panel& p, const Viewport& viewport, ImDrawList& draw);
+/// What belongs to the scene but is no pixel: centres, lens field, star, anchors, outline, brush ring.
+void drawMarks(Panel& p, const Viewport& viewport, ImDrawList& draw, bool hovered);
+
+}  // namespace ilf::ui

@@ -1,0 +1,178 @@
+// The selected region: look, strength, distance, and what the plan makes of them.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ui/canvas.h"
+#include "ui/icons.h"
+#include "ui/new_region.h"
+#include "ui/widgets.h"
+
+namespace ilf::ui {
+
+namespace {
+
+constexpr const char* kDistanceHelp =
+    "Measured from the wearer's lens along the view, not from the camera or projector. 0.5, 50 cm, 500 mm or 2 dpt.";
+
+FieldSpec distanceSpec() { return {Unit::metre, kNearestTyped.si(), kFarthestTyped.si(), 0.0, kDistanceHelp}; }
+
+/// Anchors of a new plane: a triangle on what the region covers, at the distance it had.
+PlaneDistance planeOver(const Panel& p, const Region& region, Metre distance) {
+    const Size size = p.document().scene.size();
+    PixelRect<CameraFrame> box{0, 0, std::max(3, size.width), std::max(3, size.height)};
+    if (!region.mask.empty()) {
+        const auto covered = region.mask.coveredPixels().clipped(size);
+        if (!covered.empty()) box = covered;
+    }
+    const double x0 = box.x0, y0 = box.y0, w = box.width(), h = box.height();
+    return {{DistanceAnchor{{x0 + 0.2 * w, y0 + 0.8 * h}, distance},
+             DistanceAnchor{{x0 + 0.8 * w, y0 + 0.8 * h}, distance},
+             DistanceAnchor{{x0 + 0.5 * w, y0 + 0.15 * h}, distance}}};
+}
+
+void distanceFields(Panel& p, const Region& region) {
+    const Distance& distance = region.distance;
+    const bool focus = std::exchange(p.state.focusDistance, false);
+    const auto set = [&](const FieldChange& change, Distance next) {
+        p.state.hintsUsed.insert(Hint::distance);
+        p.edit(change.commits, SetDistance{region.id, std::move(next)});
+    };
+    rowLabel(p, "Distance", kDistanceHelp);
+    const int kind = static_cast<int>(distance.index());
+    const float width = ImGui::GetContentRegionAvail().x;
+    if (const auto picked = choice("###kind", {"constant", "plane", "depth"}, kind, width); picked && *picked != kind) {
+        const RegionPlan* planned = p.planOf(region.id);
+        Metre at = planned != nullptr && isFinite(planned->nearest) ? planned->nearest : 1.0_m;
+        if (const auto* constant = std::get_if<ConstantDistance>(&distance)) at = constant->value;
+        if (*picked == 0) p.commit(SetDistance{region.id, ConstantDistance{at, {}}});
+        if (*picked == 1) p.commit(SetDistance{region.id, planeOver(p, region, at)});
+        if (*picked == 2 && p.document().scene.depth) p.commit(SetDistance{region.id, FromDepthMap{}});
+        if (*picked == 2 && !p.document().scene.depth) {
+            say(p.state, "This scene has no depth map. Load a 16-bit PNG on the Scene page first.", Tone::warning,
+                p.view.time_s);
+        }
+    }
+    const FieldSpec tolerance{Unit::metre, 0.0, 100.0, 0.001, "The surface lies within the distance \u00b1 this."};
+    if (const auto* constant = std::get_if<ConstantDistance>(&distance)) {
+        if (const auto change =
+                numberRow(p, "  from the lens", "###distance", constant->value.si(), distanceSpec(), focus)) {
+            set(*change, ConstantDistance{Metre::fromSi(change->value), constant->tolerance});
+        }
+        if (const auto change =
+                numberRow(p, "  tolerance \u00b1", "###tolerance", constant->tolerance.si(), tolerance)) {
+            set(*change, ConstantDistance{constant->value, Metre::fromSi(change->value)});
+        }
+    } else if (const auto* plane = std::get_if<PlaneDistance>(&distance)) {
+        for (std::size_t i = 0; i < plane->anchors.size(); ++i) {
+            ImGui::PushID(static_cast<int>(i));
+            const std::string label = "  anchor " + std::to_string(i + 1);
+            if (const auto change = numberRow(p, label.c_str(), "###anchor", plane->anchors[i].distance.si(),
+                                              distanceSpec(), focus && i == 0)) {
+                PlaneDistance next = *plane;
+                next.anchors[i].distance = Metre::fromSi(change->value);
+                set(*change, next);
+            }
+            ImGui::PopID();
+        }
+    } else {
+        const Metre now = std::get<FromDepthMap>(distance).tolerance;
+        if (const auto change = numberRow(p, "  tolerance \u00b1", "###tolerance", now.si(), tolerance)) {
+            set(*change, FromDepthMap{Metre::fromSi(change->value)});
+        }
+    }
+}
+
+std::string blurText(const Panel& p, Metre diameter) {
+    // On the retina of a reduced eye: angle = diameter / d_er, and dioptres of defocus = angle / pupil.
+    const Wearer& wearer = p.document().wearer;
+    const double radians = diameter * wearer.eyePower;
+    const double arcmin = radians * 60.0 * 180.0 / std::numbers::pi;
+    std::string text = std::to_string(static_cast<int>(std::lround(arcmin))) + "\u2032";
+    if (wearer.pupil > 0.0_m) text += ", " + formatted(Dioptre::fromSi(radians / wearer.pupil.si()));
+    return text;
+}
+
+void derived(Panel& p, const RegionPlan& planned) {
+    const Plan& plan = *p.plan();
+    ImGui::Dummy({1, p.px(2)});
+    if (planned.look == Look::blur) {
+        std::string least = planned.pMin ? formatted(*planned.pMin) : "blurred at rest";
+        if (plan.driver == planned.id)
+            least += std::string("  ") + (hasIcons() ? icon::star : "*") + " drives the sweep";
+        derivedRow(p, "P_min", least, "The least lens power that blurs its nearest point.");
+    }
+    if (planned.level)
+        derivedRow(p, "lit at", formatted(planned.levelPower), "Lens power while this region has light.");
+    if (planned.look != Look::neutral) {
+        derivedRow(p, "wearer sees", blurText(p, planned.blurDiameter),
+                   "Blur at its nearest point for a relaxed eye: arc minutes, and dioptres of defocus.");
+        derivedRow(p, "  attending", blurText(p, planned.blurDiameterAttending),
+                   "The same while the eye looks at the nearest focused object.");
+    }
+    if (planned.scale != 1.0) {
+        derivedRow(p, "appears", formatted(planned.scale, Unit::percent) + " of its size",
+                   "Magnification by the lens: the cause of the seam.");
+    }
+    if (!planned.problem.empty()) {
+        ImGui::Dummy({1, p.px(2)});
+        wrapped(planned.problem, colour::warn);
+        if (!planned.help.empty()) wrapped(planned.help, colour::text, Font::small);
+    }
+}
+
+}  // namespace
+
+void selectedPage(Panel& p) {
+    const Region* region = p.selected();
+    if (region == nullptr) {
+        p.state.focusDistance = false;
+        wrapped("No region is selected. Click one in the list, or on the picture with the pointer (V).", colour::dim);
+        return;
+    }
+    ImGui::PushID("region");
+    text(region->name, colour::text, Font::strong);
+    if (!region->visible) {
+        ImGui::SameLine();
+        text("hidden", colour::dim);
+    }
+    rowLabel(p, "Look");
+    if (const auto look = choice("###look", {"focus", "blur", "neutral"}, static_cast<int>(region->look),
+                                 ImGui::GetContentRegionAvail().x)) {
+        p.commit(SetLook{region->id, static_cast<Look>(*look)});
+    }
+    if (region->look == Look::blur) {
+        rowLabel(p, "Strength", "Lit at the end of the sweep as in the paper, or at P_min plus a strength of its own.");
+        const bool own = region->strength.has_value();
+        const float width = own ? p.px(84) : ImGui::GetContentRegionAvail().x;
+        if (ImGui::Button(own ? "own###strengthKind" : "end of sweep###strengthKind", {width, 0})) {
+            p.commit(SetStrength{region->id, own ? std::nullopt : std::optional(p.document().alpha)});
+        }
+        tooltip("Click to change between the end of the sweep and a strength of its own.");
+        if (own) {
+            ImGui::SameLine();
+            const FieldSpec spec{Unit::dioptre, 0.05, 10.0, 0.01, "Power above P_min: how strongly it is blurred."};
+            if (const auto change = numberField(p, "###strength", region->strength->si(), spec)) {
+                p.edit(change->commits, SetStrength{region->id, Dioptre::fromSi(change->value)});
+            }
+        }
+    }
+    distanceFields(p, *region);
+    if (const RegionPlan* planned = p.planOf(region->id)) {
+        derived(p, *planned);
+    } else if (region->id != kBackgroundId && region->mask.blank()) {
+        wrapped("Covers nothing yet: paint it.", colour::dim, Font::small);
+    } else if (!p.view.computed.planError.empty()) {
+        wrapped(p.view.computed.planError, colour::fault);
+    }
+    ImGui::PopID();
+}
+
+void selectedPanel(Panel& p) {
+    if (p.at.selected.empty()) return;
+    beginPanel("###selected", p.at.selected, colour::panel, true, true);
+    selectedPage(p);
+    ImGui::End();
+}
+
+}  // namespace ilf::ui
