@@ -22,7 +22,7 @@ struct ViewRequest {
 };
 
 /// One surface of the scene as an eye meets it: constant distance, coverage in the picture (0..1, topmost wins).
-struct Layer {
+struct SceneLayer {
     RegionId region;
     Metre distance;         ///< of the layer's surface (sloped ones are cut into layers)
     Image<float> coverage;  ///< at the request's scale
@@ -30,7 +30,7 @@ struct Layer {
 
 /// The scene cut into layers, nearest first. Planes and depth maps are cut where blur would change by more than half a
 /// pixel or an eighth of itself.
-std::vector<Layer> layers(const Document& document, const Plan& plan, double scale);
+std::vector<SceneLayer> layers(const Document& document, const Plan& plan, double scale);
 
 /// Radiance that reaches the eye, linear RGB at the request's scale, normalised so that a scene in steady light looks
 /// like its picture: per slot and layer light * albedo, blurred by the disc of that layer's defocus, magnified about
