@@ -17,28 +17,46 @@ const std::string& wordOf(const std::vector<std::string>& words, Enum value) {
     return words[static_cast<std::size_t>(value)];
 }
 
-Json written(const Distance& distance, Json json) {
-    for (const char* key : {"value_m", "tolerance_m"})
+/// A key keeps its place in the file while it has a value.
+void setOrErase(Json& json, const char* key, const std::string& value) {
+    if (value.empty()) {
         json.erase(key);
-    json.set("kind", kDistanceKinds[distance.index()]);
-    if (const auto* constant = std::get_if<ConstantDistance>(&distance)) {
-        json.set("value_m", constant->value.si());
-        json.set("tolerance_m", constant->tolerance.si());
-    }
-    if (const auto* plane = std::get_if<PlaneDistance>(&distance)) {
-        std::vector<Json> anchors = json.objects("anchors");
-        anchors.resize(plane->anchors.size());
-        for (std::size_t i = 0; i < anchors.size(); ++i) {
-            anchors[i].set("x_px", plane->anchors[i].at.x);
-            anchors[i].set("y_px", plane->anchors[i].at.y);
-            anchors[i].set("distance_m", plane->anchors[i].distance.si());
-        }
-        json.set("anchors", anchors);
     } else {
-        json.erase("anchors");
+        json.set(key, value);
     }
-    if (const auto* map = std::get_if<FromDepthMap>(&distance)) json.set("tolerance_m", map->tolerance.si());
+}
+
+Json written(const ConstantDistance& constant, Json json) {
+    json.erase("anchors");
+    json.set("value_m", constant.value.si());
+    json.set("tolerance_m", constant.tolerance.si());
     return json;
+}
+
+Json written(const PlaneDistance& plane, Json json) {
+    json.erase("value_m");
+    json.erase("tolerance_m");
+    std::vector<Json> anchors = json.objects("anchors");
+    anchors.resize(plane.anchors.size());
+    for (std::size_t i = 0; i < anchors.size(); ++i) {
+        anchors[i].set("x_px", plane.anchors[i].at.x);
+        anchors[i].set("y_px", plane.anchors[i].at.y);
+        anchors[i].set("distance_m", plane.anchors[i].distance.si());
+    }
+    json.set("anchors", anchors);
+    return json;
+}
+
+Json written(const FromDepthMap& map, Json json) {
+    json.erase("value_m");
+    json.erase("anchors");
+    json.set("tolerance_m", map.tolerance.si());
+    return json;
+}
+
+Json written(const Distance& distance, Json json) {
+    json.set("kind", kDistanceKinds[distance.index()]);
+    return std::visit([&](const auto& kind) { return written(kind, json); }, distance);
 }
 
 Distance distanceFrom(JsonReader reader) {
@@ -79,10 +97,10 @@ void setSurface(Json& json, const Region& region) {
 Json written(const Region& region, const std::string& mask, Json json) {
     json.set("id", region.id);
     setSurface(json, region);
-    json.erase("mask");
-    if (!mask.empty()) json.set("mask", mask);
-    json.erase("outline_px");
-    if (region.outline) {
+    setOrErase(json, "mask", mask);
+    if (!region.outline) {
+        json.erase("outline_px");
+    } else {
         std::vector<std::pair<double, double>> vertices;
         for (const auto& vertex : region.outline->vertices)
             vertices.emplace_back(vertex.x, vertex.y);
@@ -118,8 +136,7 @@ Region regionFrom(JsonReader& reader) {
 }
 
 Json written(const Scene& scene, const ProjectNames& names, Json json) {
-    json.erase("picture");
-    if (!names.picture.empty()) json.set("picture", names.picture);
+    setOrErase(json, "picture", names.picture);
     json.set("source", scene.source);
     json.set("focal_px", scene.scale.focalPixels);
     json.set("focal_source", wordOf(kScaleSources, scene.scale.source));

@@ -219,16 +219,15 @@ fs::path backupFolder(const fs::path& target) {
     return folder;
 }
 
-/// "2026-01-31T09-30-00.123Z": names that sort by time.
-std::string stamp() {
-    const auto now = std::chrono::system_clock::now();
-    const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
-    const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
+/// "2026-01-31T09-30-00.123456Z": names that sort by time.
+std::string stamp(std::chrono::system_clock::time_point time) {
+    const std::time_t seconds = std::chrono::system_clock::to_time_t(time);
+    const auto us = std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count() % 1'000'000;
     std::tm utc{};
     gmtime_r(&seconds, &utc);
-    std::array<char, 40> text{};
+    std::array<char, 48> text{};
     const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H-%M-%S", &utc);
-    std::snprintf(text.data() + length, text.size() - length, ".%03dZ", static_cast<int>(ms));
+    std::snprintf(text.data() + length, text.size() - length, ".%06dZ", static_cast<int>(us));
     return text.data();
 }
 
@@ -238,11 +237,11 @@ Result<void> backUp(const fs::path& target) {
     if (!fs::exists(target, ignored) || (fs::is_directory(target, ignored) && fs::is_empty(target, ignored))) return {};
     const fs::path folder = backupFolder(target);
     if (auto made = makeFolders(folder); !made) return made;
-    const std::string time = stamp();
-    fs::path backup = folder / (time + target.extension().string());
-    for (int i = 1; fs::exists(backup, ignored); ++i) {
-        backup = folder / (time + "-" + std::to_string(i) + target.extension().string());
-    }
+    auto time = std::chrono::system_clock::now();
+    const auto named = [&] { return folder / (stamp(time) + target.extension().string()); };
+    while (fs::exists(named(), ignored))
+        time += std::chrono::microseconds(1);
+    const fs::path backup = named();
     const fs::path partial = siblingOf(backup, "new");
     auto done = linkTree(target, partial).and_then([&] { return putInPlace(partial, backup).map([](const auto&) {}); });
     if (!done) removeQuietly(partial);
@@ -260,7 +259,8 @@ void tidy(const fs::path& target) {
             const std::string name = entry.path().filename().string();
             const bool ours = name.starts_with("." + target.filename().string() + ".") ||
                               (folder != target.parent_path() && name.starts_with("."));
-            const std::size_t at = std::max(name.rfind(".new-"), name.rfind(".old-"));
+            std::size_t at = name.rfind(".new-");
+            if (at == std::string::npos) at = name.rfind(".old-");
             if (!ours || at == std::string::npos) continue;
             const int pid = std::atoi(name.c_str() + at + 5);
             if (pid > 0 && ::kill(pid, 0) != 0 && errno == ESRCH) removeQuietly(entry.path());
