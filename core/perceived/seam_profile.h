@@ -22,12 +22,15 @@ struct SeamProfile {
     RegionId blurred, other;
     std::vector<float> millimetres;  ///< positions along the normal across the surface, 0 = painted border
     EyeProfile left, right;
-    double seamWidth_mm = 0.0;  ///< (s - 1) |x - c|, the gap or overlap without blending
-    bool gap = false;           ///< true: dark without blending; false: bright
+    /// (s - 1) |(x - c) n| of the eye where it is larger: the gap or overlap along the normal without blending.
+    double seamWidth_mm = 0.0;
+    bool gap = false;  ///< true: dark without blending; false: bright
 };
 
-/// The profile across the border of a blurred region nearest to `cursor` within `withinPixels`; nothing when there is
-/// no such border. The sign of the seam comes from the geometry (see scheduling F5), never from the paper's sentence.
+/// The profile across the border of a blurred region (towards a region lit at another level) nearest to `cursor` within
+/// `withinPixels`; nothing when there is no such border. The sign of the seam comes from the geometry (see scheduling
+/// F5), never from the paper's sentence. Worked out on a patch around the border, for an even white surface and an eye
+/// that looks at the blurred one; what is beyond the picture is dark, so the profile ends at its edge.
 std::optional<SeamProfile> seamProfile(const Compiled& compiled, Point<CameraFrame> cursor, double withinPixels);
 
 }  // namespace ilf
