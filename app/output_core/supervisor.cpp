@@ -28,7 +28,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kDevicesBack{1500};
 // A player that lived this long did not crash because it was started.
 constexpr std::chrono::seconds kGoodLife{5};
-constexpr milliseconds kFirstDelay{20}, kLongestDelay{5000};
+// One that crashes again and again must not keep the machine busy, but an operator waits for no more than this.
+constexpr milliseconds kFirstDelay{20}, kLongestDelay{320};
 // An orderly stop: safe light takes a few calls, each with its time limit.
 constexpr milliseconds kStopTime{3000};
 

@@ -1,0 +1,153 @@
+#include "app/output_core/player.h"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "devices/simulated/virtual_stage.h"
+#include "tests/devices/programs.h"
+
+namespace ilf::app {
+namespace {
+
+using devices::LightMode;
+using devices::Status;
+using devices::Why;
+
+/// A player on a virtual stage, and what it said. The stage is looked at only while the player is gone.
+class Scene {
+public:
+    explicit Scene(std::function<bool(const devices::Body&)> failsAt = nullptr) {
+        auto stage = std::make_unique<devices::VirtualStage>();
+        stage->port.failsAt = std::move(failsAt);
+        player.emplace(std::move(stage), [] {});
+    }
+    /// Waits until the status is as wanted; false after five seconds.
+    bool until(const std::function<bool(const Status&)>& wanted) {
+        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+        while (std::chrono::steady_clock::now() < deadline) {
+            if (auto status = player->newStatus()) newest = *status;
+            if (newest.pid != 0 && wanted(newest)) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return false;
+    }
+    void send(std::uint32_t seed, std::uint64_t revision, Why why) {
+        const auto program = test::program(seed);
+        player->play({program, revision, contentHash(program), why, newest.hold, 1});
+    }
+
+    std::optional<Player> player;
+    Status newest;
+};
+
+bool held(const Status& s) { return s.hold != 0; }
+
+}  // namespace
+
+TEST_CASE("player: begins in safe light, which only a take ends") {
+    Scene scene;
+    REQUIRE(scene.until(held));
+    CHECK(scene.newest.light == LightMode::steady);
+    scene.send(1, 1, Why::live);
+    REQUIRE(scene.until([](const Status& s) { return !s.lastRefusal.empty(); }));
+    CHECK(scene.newest.light == LightMode::steady);
+    CHECK(scene.newest.droppedUpdates == 1);
+    scene.send(1, 2, Why::take);
+    REQUIRE(scene.until([](const Status& s) { return s.revisionPlayed == 2; }));
+    CHECK(scene.newest.light == LightMode::slotted);
+    CHECK(scene.newest.contentHashPlayed == contentHash(test::program(1)));
+    CHECK(scene.newest.lastRefusal.empty());
+    scene.send(2, 3, Why::live);
+    CHECK(scene.until([](const Status& s) { return s.revisionPlayed == 3; }));
+}
+
+TEST_CASE("player: safe light holds against everything that was sent before it was known") {
+    Scene scene;
+    REQUIRE(scene.until(held));
+    scene.send(1, 1, Why::take);
+    REQUIRE(scene.until([](const Status& s) { return s.revisionPlayed == 1; }));
+    scene.player->safeLight();
+    scene.send(2, 2, Why::live);
+    scene.send(2, 3, Why::take);  // names the hold known before: none
+    REQUIRE(scene.until([](const Status& s) { return held(s) && !s.lastRefusal.empty(); }));
+    CHECK(scene.newest.light == LightMode::steady);
+    CHECK(scene.newest.revisionPlayed == 0);
+    scene.send(2, 4, Why::take);
+    CHECK(scene.until([](const Status& s) { return s.revisionPlayed == 4 && s.light == LightMode::slotted; }));
+}
+
+TEST_CASE("player: a fault makes safe light, is told until a take, and nothing resumes by itself") {
+    std::atomic<bool> broken = false;
+    Scene scene([&](const devices::Body& order) {
+        return broken && !std::holds_alternative<devices::SteadyLight>(order) &&
+               !std::holds_alternative<devices::LensToRest>(order);
+    });
+    REQUIRE(scene.until(held));
+    scene.send(1, 1, Why::take);
+    REQUIRE(scene.until([](const Status& s) { return s.revisionPlayed == 1; }));
+    broken = true;
+    REQUIRE(scene.until([](const Status& s) { return s.faults == 1 && held(s); }));
+    CHECK(scene.newest.fault == "The order was lost: read");
+    CHECK_FALSE(scene.newest.projectorWell);
+    broken = false;
+    REQUIRE(scene.until([](const Status& s) { return s.projectorWell; }));
+    CHECK(scene.newest.light == LightMode::steady);
+    CHECK(scene.newest.lens == devices::LensMode::rest);
+    CHECK_FALSE(scene.newest.fault.empty());
+    scene.send(1, 2, Why::live);
+    REQUIRE(scene.until([](const Status& s) { return !s.lastRefusal.empty(); }));
+    CHECK(scene.newest.light == LightMode::steady);
+    scene.send(1, 3, Why::take);
+    REQUIRE(scene.until([](const Status& s) { return s.revisionPlayed == 3; }));
+    CHECK(scene.newest.fault.empty());
+    CHECK(scene.newest.faults == 1);
+}
+
+TEST_CASE("player: a lost device is one fault, however long it stays away") {
+    std::atomic<bool> away = false;
+    Scene scene([&](const devices::Body&) { return away.load(); });
+    REQUIRE(scene.until([](const Status& s) { return held(s) && s.projectorWell; }));
+    scene.send(1, 1, Why::take);
+    REQUIRE(scene.until([](const Status& s) { return s.revisionPlayed == 1; }));
+    away = true;
+    REQUIRE(scene.until([](const Status& s) { return s.faults == 1; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(350));
+    CHECK(scene.until([](const Status& s) { return s.faults == 1; }));
+    away = false;
+    // The light that outlived the lost link is made safe as soon as somebody listens.
+    CHECK(scene.until([](const Status& s) { return s.projectorWell && s.light == LightMode::steady; }));
+    CHECK(scene.newest.faults == 1);
+}
+
+TEST_CASE("player: an unsafe program is refused and what plays goes on") {
+    Scene scene;
+    REQUIRE(scene.until(held));
+    scene.send(1, 1, Why::take);
+    REQUIRE(scene.until([](const Status& s) { return s.revisionPlayed == 1; }));
+    auto dark = test::program(1);
+    dark.imageOfSlot.assign(16, Program::kDark);
+    scene.player->play({dark, 2, contentHash(dark), Why::take, 0, 1});
+    REQUIRE(scene.until([](const Status& s) { return !s.lastRefusal.empty(); }));
+    CHECK(scene.newest.light == LightMode::slotted);
+    CHECK(scene.newest.revisionPlayed == 1);
+    CHECK(scene.newest.faults == 0);
+}
+
+TEST_CASE("player: of many updates at once the newest is played and the others are counted") {
+    Scene scene;
+    REQUIRE(scene.until(held));
+    scene.send(0, 1, Why::take);
+    REQUIRE(scene.until([](const Status& s) { return s.revisionPlayed == 1; }));
+    for (std::uint32_t i = 2; i <= 200; ++i)
+        scene.send(i % 7, i, Why::live);
+    REQUIRE(scene.until([](const Status& s) { return s.revisionPlayed == 200; }));
+    CHECK(scene.newest.swaps + scene.newest.droppedUpdates == 200);
+}
+
+}  // namespace ilf::app
