@@ -1,0 +1,47 @@
+#include <cstdio>
+
+#include "app/headless/plan_command.h"
+#include "app/words.h"
+
+namespace ilf::app {
+namespace {
+
+std::string text(const char* format, double value) {
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, format, value);
+    return buffer;
+}
+
+}  // namespace
+
+std::string planText(const Plan& plan) {
+    std::string out;
+    if (plan.sweeps()) {
+        out += "Sweep " + text("%.3f", plan.waveform.low.si()) + " to " + text("%.3f D", plan.waveform.high.si()) +
+               " at " + text("%.4g Hz", plan.waveform.rate.si()) + " (ideal sine, simulated)";
+    } else {
+        out += "No sweep: the lens stands still at " + text("%.3f D", plan.waveform.low.si());
+    }
+    if (plan.pS) out += "; P_s " + text("%.3f D", plan.pS->si()) + " + alpha " + text("%.2f D", plan.alpha.si());
+    for (const RegionPlan& region : plan.regions) {
+        if (plan.driver && region.id == *plan.driver) out += ", driven by \"" + region.name + "\"";
+    }
+    out += ".\nEvery region gets " + text("%.1f %%", 100.0 * plan.light) + " of steady light.\n";
+    for (const RegionPlan& region : plan.regions) {
+        out += "  " + region.name + ": " + word(region.look) + " at " + text("%.3f m", region.nearest.si());
+        if (region.pMin) out += ", P_min " + text("%.3f D", region.pMin->si());
+        if (region.level) out += ", lit at " + text("%.3f D", region.levelPower.si());
+        if (region.look == Look::blur) {
+            out += ", blur " + text("%.1f um", region.blurDiameter.in(1.0_um)) + " relaxed, " +
+                   text("%.1f um", region.blurDiameterAttending.in(1.0_um)) + " attending";
+        }
+        out += "\n";
+        if (!region.problem.empty()) out += "    problem: " + region.problem + "\n";
+        if (!region.help.empty()) out += "    help: " + region.help + "\n";
+    }
+    for (const std::string& warning : plan.warnings) out += "warning: " + warning + "\n";
+    if (!out.empty() && out.back() == '\n') out.pop_back();
+    return out;
+}
+
+}  // namespace ilf::app

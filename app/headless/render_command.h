@@ -1,0 +1,19 @@
+// `render`: one view of a project as a PNG.
+#pragma once
+
+#include <string>
+
+namespace ilf::app {
+
+struct RenderOptions {
+    std::string file;
+    std::string view = "perceived";  ///< camera, perceived, slot:N, overlay
+    std::string eye = "left";
+    bool reference = false;          ///< perceived by brute force
+    int samples = 256;               ///< points of the pupil a pixel, for the reference
+    std::string out;
+};
+
+int renderCommand(const RenderOptions& options);
+
+}  // namespace ilf::app

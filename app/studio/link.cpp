@@ -1,0 +1,75 @@
+#include "app/studio/link.h"
+
+#include "devices/link/core_link.h"
+#include "devices/link/start_core.h"
+
+namespace ilf::app {
+namespace {
+
+/// Short enough that a program waits hardly at all, long enough to leave the processor alone.
+constexpr std::chrono::milliseconds kPoll{2};
+/// A core that has not answered for this long is started anew.
+constexpr std::chrono::seconds kGone{2};
+
+}  // namespace
+
+Link::Link(std::string coreProgram, std::filesystem::path runtimeDirectory, std::function<void()> onNews)
+    : coreProgram_(std::move(coreProgram)),
+      runtimeDirectory_(std::move(runtimeDirectory)),
+      onNews_(std::move(onNews)),
+      thread_([this](std::stop_token stop) { run(stop); }) {}
+
+void Link::send(Sending sending) {
+    const std::scoped_lock lock(mutex_);
+    // A live update must not undo a take that has not left yet.
+    if (next_ && next_->why == devices::Why::take) sending.why = devices::Why::take;
+    next_ = std::move(sending);
+}
+
+void Link::safeLight() {
+    const std::scoped_lock lock(mutex_);
+    safe_ = true;
+    next_.reset();
+}
+
+void Link::run(std::stop_token stop) {
+    LinkNews last;
+    const auto publish = [&](const LinkNews& news) {
+        news_.put(news);
+        last = news;
+        onNews_();
+    };
+    if (const auto started = devices::ensureCoreRunning(coreProgram_, runtimeDirectory_); !started) {
+        publish({{}, started.error().what});
+    }
+    devices::CoreLink core(runtimeDirectory_);
+    auto heard = Clock::now();
+    while (!stop.stop_requested()) {
+        std::optional<Sending> sending;
+        bool safe = false;
+        {
+            const std::scoped_lock lock(mutex_);
+            safe = std::exchange(safe_, false);
+            if (core.status().connected) sending = std::exchange(next_, std::nullopt);
+        }
+        std::string trouble;
+        if (safe) {
+            if (const auto done = core.safeLight(); !done) trouble = done.error().what;
+        }
+        if (sending) {
+            const auto sent = core.send(sending->compiled->program, sending->revision, sending->why);
+            if (!sent) trouble = sent.error().what;
+        }
+        const auto status = core.poll(kPoll);
+        if (status || !trouble.empty()) publish({status ? *status : core.status(), trouble});
+        if (core.status().connected) {
+            heard = Clock::now();
+        } else if (Clock::now() - heard > kGone) {
+            heard = Clock::now();
+            const auto started = devices::ensureCoreRunning(coreProgram_, runtimeDirectory_);
+            if (!started && started.error().what != last.trouble) publish({core.status(), started.error().what});
+        }
+    }
+}
+
+}  // namespace ilf::app

@@ -1,0 +1,21 @@
+// How the studio is started.
+#pragma once
+
+#include <string>
+
+namespace ilf::app {
+
+struct StudioOptions {
+    std::string file;
+    double scale = 0.0;
+    std::string size;
+    bool resetLayout = false;
+    std::string screenshot;
+    std::string view;
+    std::string coreProgram;
+};
+
+/// Opens the window and runs until it is closed; returns the exit code.
+int runStudio(const StudioOptions& options);
+
+}  // namespace ilf::app

@@ -1,0 +1,302 @@
+#include "app/studio/studio.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <charconv>
+#include <iostream>
+
+#include "app/exit_code.h"
+#include "app/studio/core_view.h"
+#include "devices/link/runtime_directory.h"
+#include "projects/pictures.h"
+
+namespace ilf::app {
+namespace {
+
+constexpr Size kDefaultWindow{1440, 900};
+/// How long the loop sleeps when nothing happens: long enough to leave the machine alone, short enough for clocks on
+/// screen ("saved 12 s ago", frame ages).
+constexpr double kIdleWait_s = 0.1;
+/// Frames drawn after the last event, so that ImGui's hover and fade states settle.
+constexpr int kSettlingFrames = 3;
+/// A view computed while dragging is refined once nothing has changed for this long.
+constexpr double kRestAfter_s = 0.08;
+
+Size windowSize(const std::string& text) {
+    Size size = kDefaultWindow;
+    const auto cross = text.find('x');
+    if (cross == std::string::npos) return size;
+    std::from_chars(text.data(), text.data() + cross, size.width);
+    std::from_chars(text.data() + cross + 1, text.data() + text.size(), size.height);
+    return {std::clamp(size.width, 640, 16384), std::clamp(size.height, 400, 16384)};
+}
+
+ui::ViewMode startMode(const std::string& view) {
+    if (view == "perceived") return ui::ViewMode::perceived;
+    if (view == "light") return ui::ViewMode::light;
+    if (view == "compare") return ui::ViewMode::compare;
+    return ui::ViewMode::scene;
+}
+
+/// What an operator wants to find in the log afterwards.
+void logChange(const devices::Status& before, const devices::Status& now) {
+    if (now.connected != before.connected) {
+        if (!now.connected) {
+            spdlog::warn("output core: connection lost; what plays goes on");
+        } else if (now.light == devices::LightMode::slotted) {
+            spdlog::info("output core: connected; revision {} plays already", now.revisionPlayed);
+        } else {
+            spdlog::info("output core: connected; safe light");
+        }
+    }
+    if (now.faults != before.faults && !now.fault.empty()) spdlog::error("output core: {}", now.fault);
+    if (now.swaps != before.swaps) spdlog::info("output core: plays revision {}", now.revisionPlayed);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Studio>> Studio::start(const StudioOptions& options) {
+    OpenedFile opened = blankProject();
+    std::string trouble;
+    if (!options.file.empty()) {
+        if (auto file = openAny(options.file)) {
+            opened = *std::move(file);
+        } else {
+            trouble = file.error().what;  // said in the window: the studio opens all the same
+        }
+    }
+    auto window = Window::open("IlluminatedFocus Studio", windowSize(options.size), options.scale);
+    if (!window) return tl::unexpected(window.error());
+    auto studio = std::unique_ptr<Studio>(new Studio(options, *std::move(window), std::move(opened)));
+    if (!trouble.empty()) studio->say(trouble, ui::Tone::error);
+    return studio;
+}
+
+Studio::Studio(StudioOptions options, std::unique_ptr<Window> window, OpenedFile opened)
+    : options_(std::move(options)),
+      window_(std::move(window)),
+      editor_(opened.document),
+      keeper_(&Window::wake),
+      camera_(&Window::wake),
+      selector_(&Window::wake),
+      changedAt_(Clock::now()),
+      worker_(&Window::wake),
+      link_(options_.coreProgram, devices::runtimeDirectory(), &Window::wake) {
+    if (!options_.resetLayout) ui_ = ui::withLayout(ui_, keeper_.layoutText());
+    ui_.mode = startMode(options_.view);
+    ui_.recovery = options_.screenshot.empty() ? keeper_.recoveryQuestion() : std::nullopt;
+    playAtStart_ = !opened.projectPath.empty() && !ui_.recovery;
+    show(std::move(opened));
+}
+
+Studio::~Studio() { keeper_.closed(ui::layoutText(ui_), editor_.history().revision()); }
+
+int Studio::run() {
+    while (true) {
+        const bool busy = quietFrames_ < kSettlingFrames || editor_.previewing() || camera_.streaming();
+        window_->waitEvents(busy ? 0.0 : kIdleWait_s);
+        frame();
+        if ((window_->shouldClose() || closing_) && mayClose()) return kDone;
+        if (!options_.screenshot.empty() && done_.viewsDone && done_.serial == editor_.serial() &&
+            quietFrames_ >= kSettlingFrames && now_s() > 1.0) {
+            const auto written = projects::writePng(options_.screenshot, window_->pixels());
+            if (!written) std::cerr << "illuminatedfocus: " << written.error().what << '\n';
+            return written ? kDone : kFailed;
+        }
+    }
+}
+
+bool Studio::mayClose() {
+    closing_ = false;
+    // Nothing is lost by closing: unsaved work is autosaved and offered again at the next start.
+    if (keeper_.unsaved(editor_.history().revision())) keeper_.autosaveNow(editor_.document());
+    return true;
+}
+
+void Studio::frame() {
+    const auto started = Clock::now();
+    collect();
+    ui::Input input = window_->takeInput();
+    input.dropped = window_->takeDroppedFiles();
+    const bool eventful = input.trail.size() > 1 || !input.pressed.empty() || !input.released.empty();
+
+    pictures_.show(editor_.document(), ui_.selected);
+    pictures_.show(done_, ui::wants(ui_).lights);
+    window_->beginFrame();
+    const ui::Requests requests = ui::studio(view(), ui_, input);
+    handle(requests);
+    sendIfDue();
+    postJob();
+    keeper_.autosaveIfDue(editor_.document(), editor_.history().revision(), now_s());
+    frame_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - started).count();
+    swap_ms_ = 1e3 * window_->endFrame();
+    quietFrames_ = eventful || !requests.empty() ? 0 : std::min(quietFrames_ + 1, 1000);
+}
+
+void Studio::collect() {
+    if (auto done = worker_.tryTake()) takeDone(*std::move(done));
+    if (auto news = link_.tryTake()) takeNews(*std::move(news));
+    if (camera_.collect()) takeFrame();
+    for (const std::string& sentence : camera_.takeSentences()) say(sentence, ui::Tone::warning);
+    for (const auto& [sentence, well] : keeper_.takeSentences()) say(sentence, well ? ui::Tone::note : ui::Tone::error);
+    if (auto found = selector_.tryTake()) {
+        const Region* region = findRegion(editor_.document(), found->region);
+        if (!found->mask) {
+            say(found->mask.error().what, ui::Tone::warning);
+        } else if (region != nullptr) {
+            edit(SetMask{found->region, united(region->mask, *found->mask), "Select object"});
+        }
+    }
+}
+
+void Studio::takeDone(Done done) {
+    // Views that this answer does not bring stay on screen until newer ones come.
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+        if (done.perceived[eye].empty()) done.perceived[eye] = done_.perceived[eye];
+    }
+    if (done.plain.empty()) done.plain = done_.plain;
+    if (!done.viewsDone) {
+        done.seam = done_.seam;
+        done.rung = done_.rung;
+        done.view_ms = done_.view_ms;
+    }
+    if (done.compiled && done.compiled != done_.compiled) doneHash_ = contentHash(done.compiled->program);
+    done_ = std::move(done);
+    quietFrames_ = 0;
+}
+
+void Studio::takeNews(LinkNews news) {
+    if (news.status.swapped_ns != 0) latency_.played(news.status.revisionPlayed, news.status.swapped_ns);
+    if (news.status.light != core_.light || news.status.faults != core_.faults ||
+        news.status.connected != core_.connected || news.status.revisionPlayed != core_.revisionPlayed) {
+        quietFrames_ = 0;
+    }
+    logChange(core_, news.status);
+    core_ = std::move(news.status);
+    if (playAtStart_ && core_.connected) {
+        playAtStart_ = false;
+        // A project opens playing on simulated devices. What plays already is left alone: a restarted studio shows it.
+        if (core_.simulated && core_.light == devices::LightMode::steady && core_.hold == 0) take();
+    }
+    if (news.trouble != linkTrouble_ && !news.trouble.empty()) say(news.trouble, ui::Tone::error);
+    linkTrouble_ = std::move(news.trouble);
+}
+
+void Studio::takeFrame() {
+    if (camera_.live()) pictures_.showLive(camera_.frame());
+}
+
+void Studio::postJob() {
+    const ui::Wants wants = ui::wants(ui_);
+    if (seenSerial_ != editor_.serial()) {
+        seenSerial_ = editor_.serial();
+        changedAt_ = Clock::now();
+    }
+    const double restedFor = std::chrono::duration<double>(Clock::now() - changedAt_).count();
+    const bool dragging = (editor_.previewing() || wants.gesture) && restedFor < kRestAfter_s;
+    const bool sameViews = wants.perceivedLeft == posted_.perceivedLeft && wants.plain == posted_.plain &&
+                           wants.perceivedRight == posted_.perceivedRight && wants.cursor == posted_.cursor;
+    if (postedSerial_ == editor_.serial() && sameViews && dragging == postedDragging_) return;
+    Job job;
+    job.serial = postedSerial_ = editor_.serial();
+    job.document = editor_.document();
+    job.dragging = postedDragging_ = dragging;
+    job.eyes = {wants.perceivedLeft, wants.perceivedRight};
+    job.plain = wants.plain;
+    job.cursor = wants.cursor;
+    job.strokeAt = changedAt_;
+    posted_ = wants;
+    worker_.post(std::move(job));
+}
+
+void Studio::take() {
+    keeper_.autosaveNow(editor_.document());
+    takeSerial_ = editor_.serial();
+    takenRevision_ = editor_.history().revision();
+}
+
+void Studio::sendIfDue() {
+    if (!done_.compiled) {
+        if (takeSerial_ && done_.refusal && done_.serial >= *takeSerial_) {
+            say("Nothing was put on show: " + done_.refusal->what, ui::Tone::error);
+            takeSerial_.reset();
+        }
+        return;
+    }
+    const bool taking = takeSerial_ && done_.serial >= *takeSerial_;
+    const bool live = liveTake_ && done_.compiled != sent_;
+    if (!taking && !live) return;
+    if (taking) takeSerial_.reset();
+    if (live) takenRevision_ = editor_.history().revision();
+    sent_ = done_.compiled;
+    ++revision_;
+    latency_.sent(revision_, std::chrono::duration_cast<std::chrono::nanoseconds>(done_.strokeAt.time_since_epoch()).count());
+    link_.send({sent_, revision_, taking ? devices::Why::take : devices::Why::live});
+}
+
+ui::View Studio::view() const {
+    const History& history = editor_.history();
+    ui::View view{.document = editor_.document()};
+    view.previewing = editor_.previewing();
+    view.undoLabel = history.undoLabel();
+    view.redoLabel = history.redoLabel();
+    view.historyPosition = history.position();
+    for (std::size_t i = 0; i < history.steps(); ++i) view.historyLabels.push_back(history.labelAt(i));
+    pictures_.fill(view);
+
+    ui::Computed& computed = view.computed;
+    computed.forCurrent = done_.serial == editor_.serial();
+    if (done_.compiled) {
+        computed.plan = done_.compiled->plan;
+        computed.compiled = done_.compiled.get();
+        computed.counters = done_.compiled->counters;
+    }
+    if (done_.refusal) computed.planError = done_.refusal->what;
+    computed.seam = done_.seam;
+    computed.plan_ms = done_.plan_ms;
+    computed.compile_ms = done_.compile_ms;
+    computed.view_ms = done_.view_ms;
+    computed.viewRung = done_.rung;
+
+    view.core = coreView(core_, linkTrouble_, revision_, faultsSeen_, latency_);
+    view.camera = camera_.status();
+    view.liveTake = liveTake_;
+    view.editsSinceTake = editsSinceTake();
+    view.fileName = keeper_.projectPath();
+    view.unsaved = keeper_.unsaved(history.revision());
+    view.savedAgo_s = keeper_.savedAgo_s();
+    view.recent = keeper_.recent();
+    view.cameras = camera_.ids();
+    view.busySelecting = selector_.busy();
+    view.time_s = now_s();
+    view.scale = window_->contentScale();
+    return view;
+}
+
+int Studio::editsSinceTake() const {
+    const auto& history = editor_.history();
+    if (core_.light == devices::LightMode::slotted && done_.compiled && done_.serial == editor_.serial() &&
+        doneHash_ == core_.contentHashPlayed) {
+        return 0;  // the same light, however it came about
+    }
+    return std::max(1, static_cast<int>(history.revision() - takenRevision_));
+}
+
+void Studio::say(const std::string& sentence, ui::Tone tone) {
+    ui::say(ui_, sentence, tone, now_s());
+    quietFrames_ = 0;
+}
+
+double Studio::now_s() const { return std::chrono::duration<double>(Clock::now() - startedAt_).count(); }
+
+int runStudio(const StudioOptions& options) {
+    auto studio = Studio::start(options);
+    if (!studio) {
+        std::cerr << "illuminatedfocus: " << studio.error().what << '\n';
+        return exitCode(studio.error());
+    }
+    return (*studio)->run();
+}
+
+}  // namespace ilf::app

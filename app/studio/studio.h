@@ -1,0 +1,107 @@
+// The studio: wires window, editor, worker, output core, camera and files, on the main thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/studio/camera_port.h"
+#include "app/studio/editor.h"
+#include "app/studio/keeper.h"
+#include "app/studio/latency.h"
+#include "app/studio/link.h"
+#include "app/studio/options.h"
+#include "app/studio/selector.h"
+#include "app/studio/worker.h"
+#include "app/window/pictures.h"
+#include "app/window/window.h"
+
+namespace ilf::app {
+
+/// One brush stroke goes: window (callbacks) -> ui::studio (requests) -> editor (history) -> worker (plan, compile) ->
+/// link (output core) and -> views -> textures. Everything here runs on the main thread; threads are the members' own.
+class Studio {
+public:
+    static Result<std::unique_ptr<Studio>> start(const StudioOptions& options);
+    ~Studio();
+    /// Until the window is closed.
+    int run();
+
+private:
+    Studio(StudioOptions options, std::unique_ptr<Window> window, OpenedFile opened);
+
+    void frame();
+    void collect();                       ///< takes what threads have finished
+    void takeDone(Done done);
+    void takeNews(LinkNews news);
+    void takeFrame();
+    void postJob();
+    ui::View view() const;
+    void handle(const ui::Requests& requests);
+    void say(const std::string& sentence, ui::Tone tone);
+    bool mayClose();
+    double now_s() const;
+    int editsSinceTake() const;           ///< 0: what plays is what is painted
+
+    // One for each request of ui/request.h.
+    void on(const ui::EditRequest& request);
+    void on(const ui::CommitGesture& request);
+    void on(const ui::CancelGesture& request);
+    void on(const ui::RunCommand& request);
+    void on(const ui::OpenFile& request);
+    void on(const ui::SaveFile& request);
+    void on(const ui::ExportView& request);
+    void on(const ui::OpenCamera& request);
+    void on(const ui::SeekVideo& request);
+    void on(const ui::SelectObject& request);
+    void on(const ui::SelectFlood& request);
+    void on(const ui::GoToHistory& request);
+    void on(const ui::AcknowledgeFault& request);
+    void on(const ui::LoadDepthMap& request);
+    void on(const ui::Recover& request);
+
+    void show(OpenedFile opened);         ///< another project altogether
+    void setScene(Scene scene);
+    void take();
+    void sendIfDue();
+    void save(const std::string& path);
+    void grab();
+    void edit(const Edit& edit);          ///< a whole gesture in one
+
+    StudioOptions options_;
+    std::unique_ptr<Window> window_;
+    Editor editor_;
+    ui::State ui_;
+    Pictures pictures_;
+    Keeper keeper_;
+    CameraPort camera_;
+    Selector selector_;
+    Latency latency_;
+
+    Done done_;                           ///< the newest of the worker
+    std::uint64_t postedSerial_ = 0;
+    ui::Wants posted_;
+    bool postedDragging_ = false;
+    Clock::time_point startedAt_ = Clock::now();
+    double frame_ms_ = 0.0, swap_ms_ = 0.0;  ///< own share of a frame, and the driver's
+    Clock::time_point changedAt_;         ///< when what is shown last changed
+    std::uint64_t seenSerial_ = 0;
+
+    devices::Status core_;
+    std::string linkTrouble_;
+    std::uint64_t faultsSeen_ = 0;
+    std::uint64_t revision_ = 0;          ///< of the last program sent
+    std::optional<std::uint64_t> takeSerial_;  ///< a take waits for the program of this serial
+    std::uint64_t doneHash_ = 0;          ///< content of done_.compiled's program
+    bool playAtStart_ = false;            ///< a project that was named at the start plays once the core is there
+    std::shared_ptr<const Compiled> sent_;
+    std::size_t takenRevision_ = 0;       ///< History::revision at the last take
+    bool liveTake_ = false;
+    bool closing_ = false;
+    int quietFrames_ = 0;                 ///< frames since anything happened: then the loop may wait
+
+    Worker worker_;                       // threads: after all they wake
+    Link link_;
+};
+
+}  // namespace ilf::app

@@ -1,0 +1,202 @@
+// What the studio does when a panel asks: one function for each request.
+#include <algorithm>
+#include <filesystem>
+
+#include "app/pictures_of.h"
+#include "app/studio/studio.h"
+#include "core/base/srgb.h"
+#include "projects/pictures.h"
+
+namespace ilf::app {
+namespace fs = std::filesystem;
+
+void Studio::handle(const ui::Requests& requests) {
+    for (const ui::Request& request : requests) {
+        std::visit([this](const auto& asked) { on(asked); }, request);
+    }
+}
+
+void Studio::on(const ui::EditRequest& request) {
+    if (const auto done = editor_.handle(request); !done) say(done.error().what, ui::Tone::warning);
+}
+
+void Studio::on(const ui::CommitGesture& request) { editor_.commitGesture(request.label); }
+void Studio::on(const ui::CancelGesture&) { editor_.cancelGesture(); }
+void Studio::on(const ui::GoToHistory& request) { editor_.goTo(request.step); }
+
+void Studio::edit(const Edit& edit) { on(ui::EditRequest{ui::EditRequest::When::commit, edit}); }
+
+void Studio::on(const ui::RunCommand& request) {
+    using ui::Command;
+    switch (request.command) {
+    case Command::newProject:
+        if (keeper_.unsaved(editor_.history().revision())) keeper_.autosaveNow(editor_.document());
+        show(blankProject());
+        break;
+    case Command::save:
+        save(keeper_.projectPath());
+        break;
+    case Command::reopenLast:
+        if (const auto last = keeper_.lastOther()) on(ui::OpenFile{*last, false});
+        break;
+    case Command::quit:
+        closing_ = true;
+        break;
+    case Command::undo:
+        editor_.undo();
+        break;
+    case Command::redo:
+        editor_.redo();
+        break;
+    case Command::fullScreen:
+        window_->toggleFullScreen();
+        break;
+    case Command::grab:
+        grab();
+        break;
+    case Command::openCamera:
+        on(ui::OpenCamera{});
+        break;
+    case Command::closeCamera:
+        camera_.close();
+        pictures_.hideLive();
+        break;
+    case Command::lockCamera:
+        if (const auto locked = camera_.toggleLock(); !locked) say(locked.error().what, ui::Tone::warning);
+        break;
+    case Command::toggleLive:
+        camera_.toggleLive();
+        if (!camera_.live()) pictures_.hideLive();
+        break;
+    case Command::take:
+        take();
+        break;
+    case Command::liveTake:
+        liveTake_ = !liveTake_;
+        if (liveTake_) take();
+        break;
+    case Command::safeLight:
+        liveTake_ = false;
+        takeSerial_.reset();
+        link_.safeLight();
+        break;
+    case Command::acknowledgeFault:
+        on(ui::AcknowledgeFault{});
+        break;
+    default:
+        break;  // done by the ui itself
+    }
+}
+
+void Studio::on(const ui::AcknowledgeFault&) { faultsSeen_ = core_.faults; }
+
+void Studio::on(const ui::OpenFile& request) {
+    if (request.asScene) {
+        auto opened = openScene(request.path, keeper_.extras());
+        if (!opened) return say(opened.error().what, ui::Tone::error);
+        keeper_.setExtras(opened->extras);
+        if (!opened->note.empty()) say(opened->note, ui::Tone::note);
+        return setScene(std::move(opened->scene));
+    }
+    auto opened = openAny(request.path);
+    if (!opened) return say(opened.error().what, ui::Tone::error);
+    if (keeper_.unsaved(editor_.history().revision())) keeper_.autosaveNow(editor_.document());
+    show(*std::move(opened));
+}
+
+void Studio::show(OpenedFile opened) {
+    camera_.close();
+    pictures_.hideLive();
+    editor_.replace(std::move(opened.document));
+    keeper_.opened(opened, editor_.history().revision());
+    takenRevision_ = editor_.history().revision();
+    ui_.selected.clear();
+    ui_.fitted = true;
+    if (!opened.note.empty()) say(opened.note, ui::Tone::note);
+    if (!opened.videoPath.empty()) {
+        if (const auto open = camera_.openVideo(opened.videoPath); !open) say(open.error().what, ui::Tone::warning);
+    }
+}
+
+void Studio::setScene(Scene scene) {
+    const Scene& now = editor_.document().scene;
+    if (scene.size() == now.size()) {
+        scene.depth = now.depth;
+        if (now.scale.source != PixelScale::Source::assumed && scene.scale.source == PixelScale::Source::assumed) {
+            scene.scale = now.scale;
+        }
+    }
+    edit(SetScene{std::move(scene)});
+}
+
+void Studio::on(const ui::SaveFile& request) { save(request.path); }
+
+void Studio::save(const std::string& path) {
+    if (path.empty()) {  // untitled: the ui asks for a name first
+        ui::Requests asked;
+        ui::run(ui::Command::saveAs, view(), ui_, asked);
+        return;
+    }
+    keeper_.save(path, editor_.document(), editor_.history().revision());
+}
+
+void Studio::on(const ui::ExportView& request) {
+    const Document& document = editor_.document();
+    Image<std::uint8_t> picture;
+    if (ui_.mode == ui::ViewMode::scene) {
+        picture = overlayPicture(document);
+    } else if (ui_.mode == ui::ViewMode::light && done_.compiled) {
+        picture = slotPicture(done_.compiled->program, ui_.slot);
+    } else if (done_.compiled) {
+        ViewRequest wanted;
+        wanted.eye = ui_.eye;
+        const Compiled& compiled = *done_.compiled;
+        const auto seen = perceived(compiled.document, compiled.plan, compiled.program, wanted);
+        if (!seen) return say(seen.error().what, ui::Tone::error);
+        picture = toSrgb8(*seen);
+    } else {
+        return say("There is no view to export yet: " + (done_.refusal ? done_.refusal->what : "it is being worked out."),
+                   ui::Tone::warning);
+    }
+    const auto written = projects::writePng(request.path, picture);
+    say(written ? "Exported " + request.path + " (simulated)." : written.error().what,
+        written ? ui::Tone::note : ui::Tone::error);
+}
+
+void Studio::on(const ui::OpenCamera& request) {
+    if (const auto opened = camera_.openLive(request.id); !opened) say(opened.error().what, ui::Tone::error);
+}
+
+void Studio::on(const ui::SeekVideo& request) { camera_.seek(request.position); }
+
+void Studio::grab() {
+    auto scene = camera_.grabbed();
+    if (!scene) return say(scene.error().what, ui::Tone::warning);
+    setScene(*std::move(scene));
+}
+
+void Studio::on(const ui::SelectObject& request) { selector_.find(editor_.document().scene.picture, request); }
+void Studio::on(const ui::SelectFlood& request) { selector_.find(editor_.document().scene.picture, request); }
+
+void Studio::on(const ui::LoadDepthMap& request) {
+    auto raw = projects::readDepth16(request.path);
+    if (!raw) return say(raw.error().what, ui::Tone::error);
+    Scene scene = editor_.document().scene;
+    if (raw->size() != scene.size()) {
+        return say("The depth map " + request.path + " has " + std::to_string(raw->width()) + "x" +
+                       std::to_string(raw->height()) + " pixels, the picture " + std::to_string(scene.size().width) +
+                       "x" + std::to_string(scene.size().height) + ": they must agree.",
+                   ui::Tone::error);
+    }
+    scene.depth = Box(DepthMap{*std::move(raw), request.metresPerUnit});
+    edit(SetScene{std::move(scene)});
+}
+
+void Studio::on(const ui::Recover& request) {
+    ui_.recovery.reset();
+    auto opened = keeper_.answered(request.choice);
+    if (!opened) return say(opened.error().what, ui::Tone::error);
+    if (*opened) show(**std::move(opened));
+}
+
+}  // namespace ilf::app

@@ -1,0 +1,108 @@
+// illuminatedfocus: the studio, and the same job without a display.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "app/exit_code.h"
+#include "app/headless/plan_command.h"
+#include "app/headless/render_command.h"
+#include "app/headless/run_command.h"
+#include "app/headless/validate_command.h"
+#include "app/studio/options.h"
+#include "devices/link/start_core.h"
+#include "ilf/version.h"
+#include "ui/commands.h"
+
+namespace {
+
+using namespace ilf::app;
+
+constexpr const char* kFooter =
+    "Exit codes: 0 done, 1 failed, 2 usage, 3 device, 4 unsafe plan.\n"
+    "All output is simulated: no lens or projector driver is part of this version.";
+
+void addPlan(CLI::App& app, PlanOptions& options) {
+    auto* plan = app.add_subcommand("plan", "What the lens must do: sweep, levels, slots, and what cannot be blurred");
+    plan->add_option("FILE", options.file, "Project, picture or video");
+    plan->add_option("--object", options.objects, "NAME,DISTANCE_M,focus|blur|neutral; instead of FILE, repeatable")
+        ->allow_extra_args(false);
+    plan->add_option("--alpha", options.alpha_D, "Added to P_s, in dioptres");
+    plan->add_option("--coc", options.coc, "Circle of confusion: 1arcmin, dof, landolt, or metres on the retina");
+    plan->add_flag("--json", options.json, "As JSON");
+}
+
+void addRender(CLI::App& app, RenderOptions& options) {
+    auto* render = app.add_subcommand("render", "One view of a project as a PNG");
+    render->add_option("FILE", options.file, "Project, picture or video")->required();
+    render->add_option("--view", options.view, "camera, perceived, slot:N or overlay")->capture_default_str();
+    render->add_option("--eye", options.eye, "left or right")->check(CLI::IsMember({"left", "right"}))->capture_default_str();
+    render->add_flag("--reference", options.reference, "Perceived view by brute force: rays through the pupil; slow");
+    render->add_option("--samples", options.samples, "Rays a pixel for --reference")
+        ->check(CLI::Range(1, 65536))
+        ->capture_default_str();
+    render->add_option("-o,--out", options.out, "PNG to write")->required();
+}
+
+void addRun(CLI::App& app, RunOptions& options) {
+    auto* run = app.add_subcommand("run", "Plan, compile and play on a simulated core, then read back what it showed");
+    run->add_option("FILE", options.file, "Project, picture or video")->required();
+    run->add_option("--seconds", options.seconds, "How long to play")->check(CLI::Range(0.0, 86400.0))->capture_default_str();
+    run->add_option("--report", options.report, "JSON report to write");
+    run->add_option("--pictures", options.pictures, "Directory for the views and slot images");
+}
+
+void addStudio(CLI::App& app, StudioOptions& options) {
+    app.add_option("FILE", options.file, "Project, picture or video to open");
+    app.add_option("--scale", options.scale, "Size of the window's text and controls (0: the display's own)")
+        ->check(CLI::Range(0.0, 4.0));
+    app.add_option("--size", options.size, "Window size, such as 1600x1000");
+    app.add_flag("--reset-layout", options.resetLayout, "Start with the default layout");
+    app.add_option("--screenshot", options.screenshot, "Write a PNG of the window once its views are done, then quit");
+    app.add_option("--view", options.view, "Tab to start with: scene, perceived, light or compare")
+        ->check(CLI::IsMember({"scene", "perceived", "light", "compare"}));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Paints focus and blur onto the real world: a studio for IlluminatedFocus.", "illuminatedfocus");
+    app.footer(kFooter);
+    app.set_version_flag("--version", std::string("illuminatedfocus ") + ilf::kVersion);
+    app.require_subcommand(0, 1);
+    bool listBindings = false;
+    app.add_flag("--list-bindings", listBindings, "Every command with its keys");
+
+    StudioOptions studio;
+    PlanOptions plan;
+    RenderOptions render;
+    RunOptions run;
+    std::string validated;
+    addStudio(app, studio);
+    addPlan(app, plan);
+    addRender(app, render);
+    addRun(app, run);
+    app.add_subcommand("validate", "Opens, plans and compiles a project and says what is wrong with it")
+        ->add_option("FILE", validated, "Project, picture or video")
+        ->required();
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        const int code = app.exit(e);  // 0 for --help and --version
+        return code == 0 ? kDone : kUsage;
+    }
+    try {
+        if (listBindings) {
+            std::cout << ilf::ui::bindingsText();
+            return kDone;
+        }
+        studio.coreProgram = run.coreProgram = ilf::devices::coreExecutable().string();
+        if (app.got_subcommand("plan")) return planCommand(plan);
+        if (app.got_subcommand("render")) return renderCommand(render);
+        if (app.got_subcommand("run")) return runCommand(run);
+        if (app.got_subcommand("validate")) return validateCommand(validated);
+        return runStudio(studio);
+    } catch (const std::exception& e) {  // a library threw where nobody expected it
+        std::cerr << "illuminatedfocus: stopped by an unexpected failure: " << e.what() << '\n';
+        return kFailed;
+    }
+}

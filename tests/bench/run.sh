@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Runs every benchmark, writes tests/bench/results.csv and results.png, and puts the table into README.md.
+# Usage: tests/bench/run.sh [BUILD_DIRECTORY]   (default: build/release)
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+build=${1:-build/release}
+out=tests/bench
+
+for tool in jq gnuplot; do
+    command -v "$tool" >/dev/null || { echo "$tool is missing: ./test.sh --full installs it (section [bench])."; exit 1; }
+done
+cmake --build "$build" --target benches
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+for bench in "$build"/bin/bench_*; do
+    echo "== $(basename "$bench")"
+    "$bench" --benchmark_out="$work/$(basename "$bench").json" --benchmark_out_format=json >/dev/null
+done
+
+# One row a benchmark. Counters every benchmark may give: p50_us, p95_us, whole_us (the cost of the whole frame), ratio
+# (whole over p50), error, error_unit as a label. A row without percentiles shows Google Benchmark's mean.
+{
+    echo "bench,case,p50_us,p95_us,whole_us,skipped_times,error,what"
+    for file in "$work"/*.json; do
+        name=$(basename "$file" .json)
+        jq -r --arg bench "${name#bench_}" '
+            .benchmarks[] | select(.run_type == "iteration" and (.error_occurred | not)) |
+            (if .time_unit == "ns" then 1e-3 elif .time_unit == "ms" then 1e3 elif .time_unit == "s" then 1e6 else 1 end) as $us |
+            [$bench, (.name | sub("/(manual_time|real_time|iterations:[0-9]+)"; ""; "g")),
+             (.p50_us // (.real_time * $us)), (.p95_us // ""), (.whole_us // ""),
+             (if .whole_us and .p50_us and .p50_us > 0 then .whole_us / .p50_us else (.ratio // "") end),
+             (.error // ""), (.label // "")] | @csv' "$file"
+    done
+} > "$out/results.csv"
+
+gnuplot <<EOF
+set terminal pngcairo size 1100,620 font "Inter,10" background "#ffffff"
+set output "$out/results.png"
+set datafile separator ","
+set logscale x
+set xlabel "time, microseconds (p50; bar to p95)"
+set title "What an edit costs, and what it skips (whole frame in grey)"
+set grid x
+set offsets 0,0,0.6,0.6
+unset key
+set lmargin 42
+plot "$out/results.csv" every ::1 using 3:0:yticlabels(2) with points pt 7 ps 1.2 lc rgb "#1f6fc4", \
+     "" every ::1 using 3:0:3:(\$4 eq "" ? \$3 : \$4) with xerrorbars pt 7 ps 0.1 lc rgb "#1f6fc4", \
+     "" every ::1 using 5:0 with points pt 5 ps 1.0 lc rgb "#999999"
+EOF
+
+# The table of the README, between its two markers.
+{
+    echo "| case | p50 | p95 | whole frame | skipped | error |"
+    echo "| --- | ---: | ---: | ---: | ---: | --- |"
+    tail -n +2 "$out/results.csv" | sed 's/"//g' | awk -F, '
+        function t(us) { return us == "" ? "" : us >= 1000 ? sprintf("%.2f ms", us / 1000) : us >= 1 ? sprintf("%.1f us", us) : sprintf("%.0f ns", us * 1000) }
+        { printf "| %s: %s | %s | %s | %s | %s | %s %s |\n", $1, $2, t($3), t($4), t($5), $6 == "" ? "" : sprintf("%.0fx", $6), $7 == "" ? "" : sprintf("%.3g", $7), $8 }'
+    echo
+    echo "Measured $(date -u +%F) on $(nproc) cores, $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1). Simulated devices."
+} > "$work/table.md"
+awk -v table="$work/table.md" '
+    /<!-- bench:begin -->/ { print; while ((getline line < table) > 0) print line; skipping = 1; next }
+    /<!-- bench:end -->/ { skipping = 0 }
+    !skipping { print }' README.md > "$work/README.md"
+cp "$work/README.md" README.md
+echo "wrote $out/results.csv, $out/results.png and the table in README.md"
