@@ -141,7 +141,8 @@ std::optional<Metre> distanceAt(const Document& document, const Region& region, 
 ///
 /// Constant: value -+ tolerance. Plane: its extremes over the centres of the pixels seen, ending at kFarthestDistance.
 /// Depth map: the 0.1 % and 99.9 % quantiles of the pixels seen that have depth, so that a few stray pixels of the
-/// sensor, which would otherwise decide how far the lens must sweep, do not.
+/// sensor, which would otherwise decide how far the lens must sweep, do not. Of more than 64 whole tiles,
+/// one pixel in 4 x 4 stands for the others.
 struct DistanceRange {
     Metre nearest, farthest;
     double holes = 0.0;  ///< share of its pixels without depth

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "core/document/shape.h"
 
@@ -9,24 +10,31 @@ namespace ilf {
 
 namespace {
 
-constexpr std::size_t kMostLevels = 16;
+// A distance transform each. A shape with straight edges has no more than 9 levels: four edges, four corners and full.
+constexpr std::size_t kMostLevels = 12;
+constexpr std::size_t kFrequentLevels = 4;
 
-/// The levels of coverage above 0 that occur, ascending; evenly picked, with both ends, when they are many.
+/// The levels of coverage above 0 that occur, ascending. When they are many: some evenly picked, with both ends, and
+/// the most frequent, which are the edges that run along the pixels and would show it if they moved by a tenth of one.
 std::vector<std::uint8_t> levelsOf(const cv::Mat1b& coverage) {
-    std::array<bool, 256> occurs{};
+    std::array<int, 256> count{};
     for (int y = 0; y < coverage.rows; ++y) {
         for (int x = 0; x < coverage.cols; ++x)
-            occurs[coverage(y, x)] = true;
+            ++count[coverage(y, x)];
     }
     std::vector<std::uint8_t> all;
-    for (std::size_t v = 1; v < occurs.size(); ++v) {
-        if (occurs[v]) all.push_back(static_cast<std::uint8_t>(v));
+    for (std::size_t v = 1; v < count.size(); ++v) {
+        if (count[v] > 0) all.push_back(static_cast<std::uint8_t>(v));
     }
     if (all.size() <= kMostLevels) return all;
-    std::vector<std::uint8_t> picked;
-    for (std::size_t i = 0; i < kMostLevels; ++i)
-        picked.push_back(all[i * (all.size() - 1) / (kMostLevels - 1)]);
-    return picked;
+    std::vector<std::uint8_t> frequent = all;
+    std::stable_sort(frequent.begin(), frequent.end(),
+                     [&](std::uint8_t a, std::uint8_t b) { return count[a] > count[b]; });
+    std::set<std::uint8_t> picked(frequent.begin(), frequent.begin() + kFrequentLevels);
+    constexpr std::size_t kEven = kMostLevels - kFrequentLevels;
+    for (std::size_t i = 0; i < kEven; ++i)
+        picked.insert(all[i * (all.size() - 1) / (kEven - 1)]);
+    return {picked.begin(), picked.end()};
 }
 
 /// Coverage after a whole number of pixels: the greatest level no farther away than `radius`, and from there on to the

@@ -9,9 +9,9 @@ namespace ilf {
 
 namespace {
 
-constexpr double kWorkingPixels = 256.0 * 1024.0;
-constexpr int kRounds = 3;        // of GrabCut; later rounds move a handful of pixels
-constexpr double kMargin = 0.25;  // of the box, on each side: what GrabCut learns the surroundings from
+constexpr double kWorkingPixels = 96.0 * 1024.0;  // a third of a second
+constexpr int kRounds = 3;                        // of GrabCut; later rounds move a handful of pixels
+constexpr double kMargin = 0.25;                  // of the box, on each side: what GrabCut learns the surroundings from
 
 /// The part of `picture` inside `crop` as 8-bit RGB.
 cv::Mat3b cropped(const Picture& picture, PixelRect<CameraFrame> crop) {
@@ -98,6 +98,7 @@ cv::Mat1b told(const cv::Mat3b& crop, cv::Rect inside) {
     cv::Mat1b object;
     cv::bitwise_and(labels, 1, object);  // GC_FGD and GC_PR_FGD are odd
     object *= 255;
+    cv::medianBlur(object, object, 5);  // specks and pinholes, which nobody means by a box
     return object;
 }
 

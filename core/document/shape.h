@@ -31,7 +31,7 @@ Mask inverted(const Mask& mask);
 
 /// Coverage dilated (radius > 0) or eroded (radius < 0) by a disc of |radius| camera pixels. Each level of coverage
 /// moves by the same distance, so hard edges stay hard and soft ones soft; a fraction of a pixel is blended between the
-/// two whole radii about it. More than 16 levels of coverage are taken as 16 and what lies between is interpolated.
+/// two whole radii about it. More than 12 levels of coverage are taken as 12 and what lies between is interpolated.
 /// What lies outside the picture does not erode it.
 Mask grown(const Mask& mask, double radius);
 
