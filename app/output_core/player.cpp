@@ -72,7 +72,7 @@ void Player::fault(const std::string& what) {
     status_.fault = what;
     ++status_.faults;
     hold();
-    give();  // said first: a device that does not answer makes safe light slow
+    say();  // first: a device that does not answer makes safe light slow
     stage_->safeLight();
 }
 
