@@ -12,7 +12,7 @@ namespace ilf {
 Result<Mask> flooded(const Picture& picture, Point<CameraFrame> seed, double tolerance);
 
 /// The object inside `box`, told from what surrounds it: GrabCut at about a hundred thousand pixels, then refined to
-/// the picture's resolution. Takes 0.1-0.5 s: call it on a worker. A box thinner than 8 pixels is an error.
+/// the picture's resolution. Takes 0.2-0.7 s: call it on a worker. A box thinner than 8 pixels is an error.
 Result<Mask> cutOut(const Picture& picture, PixelRect<CameraFrame> box);
 
 }  // namespace ilf
