@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -27,9 +26,8 @@ struct ProjectExtras::State {
         Box<std::string> bytes;
     };
 
-    Json project, wearer, rig;      ///< as they were read or last written
-    std::filesystem::path origin;   ///< where that was; empty: nowhere yet
-    std::set<std::string> written;  ///< names of our files there; others are somebody else's
+    Json project, wearer, rig;     ///< as they were read or last written
+    std::filesystem::path origin;  ///< the project they belong to; empty: none yet
     std::vector<Original> originals;
     std::vector<EncodedMask> masks;
     EncodedDepth depth;

@@ -44,13 +44,18 @@ enum class Backups {
     none,
 };
 
+/// Files in a project's folder that are not ours: notes, captures, .git.
+enum class OtherFiles {
+    carry,  ///< they stay with the project, and go along to another place (hidden ones do not)
+    leave,
+};
+
 /// Saves as a folder (path ends in .ilfd) or an archive (.ilf). The whole new tree is written beside the old one, made
 /// durable, then put in its place in one step: whichever step fails, the project on disk is the old one or the new one.
 /// Never replaces a folder that is not a project. Gives the extras to save with the next time.
-///
-/// Files in a project's folder that are not ours (notes, .git) stay with it.
 Result<ProjectExtras> saveProject(const std::filesystem::path& path, const Document& document,
-                                  const ProjectExtras& extras, Backups backups = Backups::keep);
+                                  const ProjectExtras& extras, Backups backups = Backups::keep,
+                                  OtherFiles otherFiles = OtherFiles::carry);
 
 /// Backups of the project at `path`, newest first; each opens like a project.
 std::vector<std::filesystem::path> backupsOf(const std::filesystem::path& path);

@@ -235,4 +235,14 @@ Result<ProjectText> projectFrom(const Json& json, const std::string& file) {
     return project;
 }
 
+std::set<std::string> filesNamedIn(const Json& json) {
+    const Json scene = json.object("scene");
+    std::set<std::string> names{"project.json", json.word("wearer"), json.word("rig"), scene.word("picture"),
+                                scene.object("depth").word("file")};
+    for (const Json& region : json.objects("regions"))
+        names.insert(region.word("mask"));
+    names.erase("");
+    return names;
+}
+
 }  // namespace ilf::projects

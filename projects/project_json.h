@@ -1,7 +1,7 @@
 // A document without its pixels to project.json and back.
 #pragma once
 
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,5 +28,8 @@ struct ProjectText {
     Metre depthUnit = 1.0_mm;
 };
 Result<ProjectText> projectFrom(const Json& json, const std::string& file);
+
+/// Names of all files a project.json speaks of, itself included; other files in its folder are somebody else's.
+std::set<std::string> filesNamedIn(const Json& json);
 
 }  // namespace ilf::projects

@@ -20,7 +20,7 @@ Result<Json> readJson(const FileTree& tree, const std::string& name) {
     return tree.read(name).and_then([&](const std::string& text) { return Json::parse(text, tree.spokenName(name)); });
 }
 
-/// Reads one project, remembering every file it used.
+/// Reads one project, step by step.
 class Opening {
 public:
     explicit Opening(const FileTree& tree) : tree_(tree) {}
@@ -46,7 +46,6 @@ private:
         auto text = projectFrom(*json, tree_.spokenName(kProjectJson));
         if (!text) return tl::unexpected(text.error());
         state_.project = *std::move(json);
-        state_.written.insert(kProjectJson);
         text_ = *std::move(text);
         return {};
     }
@@ -63,7 +62,7 @@ private:
 
     Result<void> readScenePicture() {
         const std::string& name = text_.names.picture;
-        auto bytes = take(name);
+        auto bytes = tree_.read(name);
         if (!bytes) return tl::unexpected(bytes.error());
         auto file = decodePicture(Box<std::string>(*std::move(bytes)), tree_.spokenName(name));
         if (!file) return tl::unexpected(file.error());
@@ -79,7 +78,7 @@ private:
         if (name.empty()) {
             region.mask = Mask(size);
         } else {
-            auto bytes = take(name);
+            auto bytes = tree_.read(name);
             if (!bytes) return tl::unexpected(bytes.error());
             const auto image = decodeMask(*bytes, tree_.spokenName(name));
             if (!image) return tl::unexpected(image.error());
@@ -93,7 +92,7 @@ private:
 
     Result<void> readDepth() {
         const std::string& name = text_.names.depth;
-        auto bytes = take(name);
+        auto bytes = tree_.read(name);
         if (!bytes) return tl::unexpected(bytes.error());
         auto raw = decodeDepth16(*bytes, tree_.spokenName(name));
         if (!raw) return tl::unexpected(raw.error());
@@ -112,7 +111,6 @@ private:
             if (!wearer) return tl::unexpected(wearer.error());
             document().wearer = *std::move(wearer);
             state_.wearer = *std::move(json);
-            state_.written.insert(wearerName);
         }
         const std::string& rigName = text_.names.rig;
         if (!rigName.empty()) {
@@ -122,7 +120,6 @@ private:
             if (!rig) return tl::unexpected(rig.error());
             document().rig = *std::move(rig);
             state_.rig = *std::move(json);
-            state_.written.insert(rigName);
         }
         return {};
     }
@@ -157,11 +154,6 @@ private:
             if (!next) return refused({Fault::outOfRange, "region \"" + region->name + "\": " + next.error().what});
         }
         return {};
-    }
-
-    Result<std::string> take(const std::string& name) {
-        state_.written.insert(name);
-        return tree_.read(name);
     }
 
     Result<void> wrongSize(const std::string& name, const std::string& what, Size size) {

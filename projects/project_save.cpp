@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <set>
 #include <utility>
 
 #include "projects/file_tree.h"
@@ -54,7 +55,6 @@ public:
     Composing(const Document& document, const ProjectExtras::State& before) : document_(document), state_(before) {}
 
     Result<void> run() {
-        state_.written.clear();
         if (auto added = addPicture().and_then([&] { return addMasks(); }).and_then([&] { return addDepth(); });
             !added) {
             return added;
@@ -74,10 +74,7 @@ public:
     ProjectExtras::State& state() { return state_; }
 
 private:
-    void add(const std::string& name, Box<std::string> bytes) {
-        files_.push_back({name, std::move(bytes)});
-        state_.written.insert(name);
-    }
+    void add(const std::string& name, Box<std::string> bytes) { files_.push_back({name, std::move(bytes)}); }
 
     Result<void> addPicture() {
         if (!document_.scene.picture) return {};
@@ -155,41 +152,39 @@ private:
     std::vector<TreeFile> files_;
 };
 
-/// True for files that are not ours but belong to the project at `origin` and shall stay with it. Hidden files (.git)
-/// stay where they are, but do not follow to another place.
-bool isForeign(const std::string& name, const ProjectExtras::State& before, bool samePlace) {
-    return before.written.count(name) == 0 && (samePlace || !name.starts_with("."));
+/// One file of `tree` that is not ours goes along: into the fresh folder, or into the list of files to zip.
+Result<void> carryFile(const FileTree& tree, const fs::path& origin, const std::string& name, const fs::path& fresh,
+                       std::vector<TreeFile>& files, bool zip) {
+    const fs::path to = fresh / name;
+    const auto intoFolder = [&](const auto& put) { return makeFolders(to.parent_path()).and_then(put); };
+    if (!zip && !tree.zipped()) return intoFolder([&] { return linkTree(origin / name, to); });
+    auto bytes = tree.read(name);
+    if (!bytes) return tl::unexpected(bytes.error());
+    if (!zip) return intoFolder([&] { return writeNew(to, *bytes); });
+    files.push_back({name, boxed(*std::move(bytes))});
+    return {};
 }
 
-Result<void> carryForeignFiles(const ProjectExtras::State& before, const fs::path& target, const fs::path& fresh,
-                               std::vector<TreeFile>& files, bool zip) {
+/// What lies beside our files in the project at `origin` goes along; hidden files (.git) only when the place is the
+/// same.
+Result<void> carryOtherFiles(const fs::path& origin, const fs::path& target, const fs::path& fresh,
+                             std::vector<TreeFile>& files) {
     std::error_code ignored;
-    if (before.origin.empty() || !fs::exists(before.origin, ignored)) return {};
-    auto tree = openTree(before.origin, "project.json");
-    if (!tree) return {};  // it was moved or broken since; what we hold is written nevertheless
-    const bool samePlace = fs::equivalent(before.origin, target, ignored);
-    const auto taken = [&](const std::string& name) {
-        return std::any_of(files.begin(), files.end(), [&](const TreeFile& file) { return file.name == name; });
-    };
+    if (origin.empty() || !fs::exists(origin, ignored)) return {};
+    const auto tree = openTree(origin, "project.json");
+    if (!tree) return {};  // moved or broken since; what is in memory is saved nevertheless
+    std::set<std::string> skipped;
+    const auto json = (*tree)->read("project.json").and_then([](const std::string& text) {
+        return Json::parse(text, "project.json");
+    });
+    if (json) skipped = filesNamedIn(*json);
+    for (const TreeFile& file : files)
+        skipped.insert(file.name);
+    const bool samePlace = fs::equivalent(origin, target, ignored);
+    const bool zip = target.extension() == ".ilf";
     for (const std::string& name : (*tree)->names()) {
-        if (!staysInside(name) || !isForeign(name, before, samePlace) || taken(name)) continue;
-        if (!zip && !(*tree)->zipped()) {
-            auto linked = makeFolders((fresh / name).parent_path()).and_then([&] {
-                return linkTree(before.origin / name, fresh / name);
-            });
-            if (!linked) return linked;
-        } else {
-            auto bytes = (*tree)->read(name);
-            if (!bytes) return tl::unexpected(bytes.error());
-            if (zip) {
-                files.push_back({name, boxed(*std::move(bytes))});
-            } else if (auto copied = makeFolders((fresh / name).parent_path()).and_then([&] {
-                           return writeNew(fresh / name, *bytes);
-                       });
-                       !copied) {
-                return copied;
-            }
-        }
+        if (!staysInside(name) || skipped.count(name) != 0 || (!samePlace && name.starts_with("."))) continue;
+        if (auto carried = carryFile(**tree, origin, name, fresh, files, zip); !carried) return carried;
     }
     return {};
 }
@@ -280,7 +275,7 @@ ProjectExtras ProjectExtras::withOriginal(const PictureFile& file) const {
 }
 
 Result<ProjectExtras> saveProject(const fs::path& path, const Document& document, const ProjectExtras& extras,
-                                  Backups backups) {
+                                  Backups backups, OtherFiles otherFiles) {
     std::error_code ignored;
     const fs::path target =
         fs::weakly_canonical(fs::absolute(path.has_filename() ? path : path.parent_path()), ignored);
@@ -295,7 +290,10 @@ Result<ProjectExtras> saveProject(const fs::path& path, const Document& document
     const auto saved =
         makeFolders(target.parent_path())
             .and_then([&] { return zip ? Result<void>() : writeFolder(fresh, files); })
-            .and_then([&] { return carryForeignFiles(extras.state(), target, fresh, files, zip); })
+            .and_then([&] {
+                const bool carries = otherFiles == OtherFiles::carry;
+                return carries ? carryOtherFiles(extras.state().origin, target, fresh, files) : Result<void>();
+            })
             .and_then([&] { return zip ? writeZip(fresh, files) : Result<void>(); })
             .and_then([&] { return backups == Backups::keep ? backUp(target) : Result<void>(); })
             .and_then([&] { return putInPlace(fresh, target).map([&](const fs::path& replaced) { old = replaced; }); });
@@ -310,7 +308,8 @@ Result<ProjectExtras> saveProject(const fs::path& path, const Document& document
     if (!durable) {
         return fail(Fault::cannotWrite, spoken(target) + " was saved, but the disk did not confirm it. Save again.");
     }
-    composing.state().origin = target;
+    // An autosave is a copy beside: what lies with the project stays with the project.
+    if (otherFiles == OtherFiles::carry) composing.state().origin = target;
     return ProjectExtras(std::make_shared<ProjectExtras::State>(std::move(composing.state())));
 }
 
