@@ -60,7 +60,8 @@ ChartFrame chartFrame(Panel& p, const Rect& area, const char* title, const std::
             label(static_cast<double>(at.x), below, tickText(value), false);
     }
     label(frame.plot.right() + 4 * p.scale, below, xUnit, true);
-    label(frame.plot.x - 6 * p.scale, frame.plot.y - line - 2 * p.scale, yUnit, true);
+    draw.AddText(small, small->FontSize, vec(frame.plot.x + 5 * p.scale, frame.plot.y + 2 * p.scale), rgb(0x66707E),
+                 yUnit);
     draw.AddRect(vec(frame.plot.x, frame.plot.y), vec(frame.plot.right(), frame.plot.bottom()), rgb(0x2C333D));
     return frame;
 }

@@ -167,11 +167,15 @@ void drawSeam(Panel& p) {
     chartCurve(draw, frame, chart.rightBefore, faded(colour::fault, 0.65), p.px(1.2), true);
     chartCurve(draw, frame, chart.leftAfter, colour::good, p.px(1.8));
     chartCurve(draw, frame, chart.rightAfter, colour::good, p.px(1.8), true);
-    if (!hovering(frame)) {
-        chartNote(p, draw, vec(frame.plot.x + 8 * p.scale, frame.plot.bottom() - 22 * p.scale),
-                  "red before, green after; left solid, right dashed", colour::dim);
-        return;
-    }
+    ImFont* small = font(Font::small);
+    const double row = static_cast<double>(small->FontSize) + 3 * p.scale;
+    const auto legend = [&](int line, const char* words, ImU32 ink) {
+        draw.AddText(small, small->FontSize,
+                     vec(frame.plot.x + 8 * p.scale, frame.plot.bottom() - (2 - line) * row - 4 * p.scale), ink, words);
+    };
+    legend(0, "before", faded(colour::fault, 0.8));
+    legend(1, "blended: left, right dashed", colour::good);
+    if (!hovering(frame)) return;
     const double mouse = static_cast<double>(ImGui::GetMousePos().x), x = frame.xAt(mouse);
     draw.AddLine(vec(mouse, frame.plot.y), vec(mouse, frame.plot.bottom()), rgb(0xffffff, 60));
     std::string words = number(x, 1) + " mm";

@@ -71,31 +71,31 @@ struct RecentFile {
 
 struct View {
     const Document& document;
-    bool previewing = false;                 ///< a gesture is going on
-    std::string undoLabel, redoLabel;        ///< empty: nothing to undo
-    std::vector<std::string> historyLabels;  ///< oldest first
+    bool previewing = false;                   ///< a gesture is going on
+    std::string undoLabel{}, redoLabel{};      ///< empty: nothing to undo
+    std::vector<std::string> historyLabels{};  ///< oldest first
     std::size_t historyPosition = 0;
 
-    Texture scene;                     ///< the frozen picture
-    Texture live;                      ///< the live camera, when it goes on beneath
-    Texture overlay;                   ///< RGBA of ui/overlay.h, uploaded tile by tile
-    std::array<Texture, 2> perceived;  ///< left, right
-    Texture plain;                     ///< steady light at the same scale, for compare
-    std::vector<Texture> lights;       ///< one for each image of the program
+    Texture scene{};                     ///< the frozen picture
+    Texture live{};                      ///< the live camera, when it goes on beneath
+    Texture overlay{};                   ///< RGBA of ui/overlay.h, uploaded tile by tile
+    std::array<Texture, 2> perceived{};  ///< left, right
+    Texture plain{};                     ///< steady light at the same scale, for compare
+    std::vector<Texture> lights{};       ///< one for each image of the program
 
-    Computed computed;
-    CoreStatus core;
-    CameraStatus camera;
+    Computed computed{};
+    CoreStatus core{};
+    CameraStatus camera{};
     bool liveTake = false;   ///< every change is sent while painting
     int editsSinceTake = 0;  ///< 0: what plays is what is painted
-    std::string fileName;    ///< empty: untitled
+    std::string fileName{};  ///< empty: untitled
     bool unsaved = false;
     double savedAgo_s = -1.0;  ///< negative: never
-    std::vector<RecentFile> recent;
-    std::vector<std::string> cameras;  ///< stable ids
-    bool busySelecting = false;        ///< click-select is at work
-    double time_s = 0.0;               ///< monotonic
-    double scale = 1.0;                ///< content scale of the display
+    std::vector<RecentFile> recent{};
+    std::vector<std::string> cameras{};  ///< stable ids
+    bool busySelecting = false;          ///< click-select is at work
+    double time_s = 0.0;                 ///< monotonic
+    double scale = 1.0;                  ///< content scale of the display
 };
 
 }  // namespace ilf::ui
