@@ -8,7 +8,7 @@
 
 namespace ilf {
 
-/// A piece of the line where visible weight is one half, inside one square of four pixel centres.
+/// A straight piece of the line where visible weight is one half.
 struct BorderPiece {
     float ax, ay, bx, by;  ///< projector frame
     bool step;             ///< the surfaces on the two sides are farther apart than a depth step
@@ -22,7 +22,10 @@ struct Visible {
     const std::vector<TileGrid>& weights;  ///< one per sheet
 };
 
-/// The border pieces of `sheet` between the pixel centres of `around` (its weights there).
+/// The least window of whole squares around `rect`, and the row and column of pixels that closes them.
+PixelRect<ProjectorFrame> wholeSquares(PixelRect<ProjectorFrame> rect);
+
+/// The border pieces of `sheet` in `around` (its weights there), a window as wholeSquares gives it.
 std::vector<BorderPiece> borderPieces(const Visible& visible, int sheet, const Patch<std::uint8_t>& around);
 
 /// Lowers `squared` (squared distances from pixel centres, at most radius^2 to begin with) to those to the pieces

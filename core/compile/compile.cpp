@@ -46,38 +46,47 @@ PixelRect<ProjectorFrame> replace(TileGrid& grid, int column, int row, const Box
 class Raster {
 public:
     explicit Raster(const Lighting& light) : columns_(light.columns), rows_(light.rows) {}
-    int tiles() const { return columns_ * rows_; }
-    int column(int tile) const { return tile % columns_; }
-    int row(int tile) const { return tile / columns_; }
-    std::vector<int> all() const {
-        std::vector<int> tiles;
-        for (int t = 0; t < columns_ * rows_; ++t)
-            tiles.push_back(t);
-        return tiles;
+    std::vector<TilePart> all() const {
+        std::vector<TilePart> parts;
+        for (int row = 0; row < rows_; ++row) {
+            for (int column = 0; column < columns_; ++column)
+                parts.push_back({column, row, tileRect(column, row)});
+        }
+        return parts;
     }
-    /// Tiles that a change inside `changed` can reach from at most `reach` pixels away.
-    std::vector<int> reached(const Rects& changed, int reach) const {
-        std::vector<char> hit(static_cast<std::size_t>(columns_ * rows_), 0);
+    /// The parts of tiles that a change inside `changed` can reach from at most `reach` pixels away.
+    std::vector<TilePart> reached(const Rects& changed, int reach) const {
+        std::vector<PixelRect<ProjectorFrame>> hit(static_cast<std::size_t>(columns_ * rows_));
         for (const PixelRect<ProjectorFrame>& rect : changed) {
             const PixelRect<ProjectorFrame> r = rect.grown(reach).clipped({columns_ * kTile, rows_ * kTile});
-            for (int row = r.y0 / kTile; row * kTile < r.y1; ++row)
-                for (int column = r.x0 / kTile; column * kTile < r.x1; ++column)
-                    hit[static_cast<std::size_t>(row * columns_ + column)] = 1;
+            for (int row = r.y0 / kTile; row * kTile < r.y1; ++row) {
+                for (int column = r.x0 / kTile; column * kTile < r.x1; ++column) {
+                    const PixelRect<ProjectorFrame> tile = tileRect(column, row);
+                    auto& part = hit[static_cast<std::size_t>(row * columns_ + column)];
+                    part = part.united({std::max(r.x0, tile.x0), std::max(r.y0, tile.y0), std::min(r.x1, tile.x1),
+                                        std::min(r.y1, tile.y1)});
+                }
+            }
         }
-        std::vector<int> tiles;
-        for (int t = 0; t < columns_ * rows_; ++t) {
-            if (hit[static_cast<std::size_t>(t)] != 0) tiles.push_back(t);
+        std::vector<TilePart> parts;
+        for (int row = 0; row < rows_; ++row) {
+            for (int column = 0; column < columns_; ++column) {
+                const PixelRect<ProjectorFrame>& r = hit[static_cast<std::size_t>(row * columns_ + column)];
+                const auto up = [](int v) { return (v + kSquare - 1) / kSquare * kSquare; };
+                const auto down = [](int v) { return v / kSquare * kSquare; };
+                if (!r.empty()) parts.push_back({column, row, {down(r.x0), down(r.y0), up(r.x1), up(r.y1)}});
+            }
         }
-        return tiles;
+        return parts;
     }
 
 private:
     int columns_, rows_;
 };
 
-/// Works out `count` results side by side, then hands them over one after the other.
+/// Works out results side by side, then hands them over one after the other.
 template <class Result, class Make, class Take>
-void computed(const std::vector<int>& tiles, Make&& make, Take&& take) {
+void computed(const std::vector<TilePart>& tiles, Make&& make, Take&& take) {
     std::vector<Result> results(tiles.size());
     parallelFor(static_cast<int>(tiles.size()),
                 [&](int i) { results[static_cast<std::size_t>(i)] = make(tiles[static_cast<std::size_t>(i)]); });
@@ -100,13 +109,12 @@ public:
             return;
         }
         const Size size = document.rig.projector;
-        parts_.light = lighting(document, plan);
+        parts_.light = Box<Lighting>(lighting(document, plan));
         parts_.coverage.assign(regions_.size(), TileGrid(size));
         parts_.visible.assign(light().sheets.size(), TileGrid(size));
         parts_.layers.lit.assign(light().layers.size(), TileGrid(size));
         parts_.layers.seen = parts_.layers.lit;
         parts_.layers.hard = TileGrid(size);
-        parts_.layers.blended.assign(static_cast<std::size_t>(light().columns * light().rows), false);
         images_.assign(light().weights.size(), TileGrid(size));
         weights_ = images_;
     }
@@ -117,9 +125,9 @@ public:
             return previous_ == nullptr ? raster.all() : raster.reached(changed, reach);
         };
         const Rects covered = cover(raster);
-        const Rects seen = uncover(raster, next(covered, 0));
-        const Rects lit = lightLayers(raster, next(seen, light().layerReach));
-        lightLevels(raster, next(lit, light().blendReach));
+        const Rects seen = uncover(next(covered, 0));
+        const Rects lit = lightLayers(next(seen, light().layerReach));
+        lightLevels(next(lit, light().blendReach));
     }
 
     Compiled result(const Plan& plan) && {
@@ -132,13 +140,13 @@ public:
         compiled.counters.tiles = tiles;
         compiled.counters.computed = computed_;
         compiled.counters.unchanged = tiles - computed_;
-        compiled.counters.seamTiles = static_cast<int>(std::ranges::count(parts_.layers.blended, true));
+        compiled.counters.seamTiles = light().blending == Blending::none ? 0 : seamTiles();
         compiled.parts = std::make_shared<const CompileParts>(std::move(parts_));
         return compiled;
     }
 
 private:
-    const Lighting& light() const { return parts_.light; }
+    const Lighting& light() const { return *parts_.light; }
 
     /// Every region's mask on the raster.
     Rects cover(const Raster& raster) {
@@ -150,16 +158,16 @@ private:
             const Mask* before = nullptr;
             if (previous_ != nullptr)
                 before = regionsBefore_[r]->mask.size() == blank.size() ? &regionsBefore_[r]->mask : &blank;
-            std::vector<int> tiles;
-            for (const int tile : raster.all()) {
-                if (before == nullptr || differ(*before, mask, sampler.source(raster.column(tile), raster.row(tile)))) {
+            std::vector<TilePart> tiles;
+            for (const TilePart& tile : raster.all()) {
+                if (before == nullptr || differ(*before, mask, sampler.source(tile.column, tile.row))) {
                     tiles.push_back(tile);
                 }
             }
             computed<Box<Tile>>(
-                tiles, [&](int tile) { return sampler.tile(mask, raster.column(tile), raster.row(tile)); },
-                [&](int tile, const Box<Tile>& made) {
-                    const auto rect = replace(parts_.coverage[r], raster.column(tile), raster.row(tile), made);
+                tiles, [&](const TilePart& tile) { return sampler.tile(mask, tile.column, tile.row); },
+                [&](const TilePart& tile, const Box<Tile>& made) {
+                    const auto rect = replace(parts_.coverage[r], tile.column, tile.row, made);
                     if (!rect.empty()) changed.push_back(rect);
                 });
         }
@@ -175,13 +183,13 @@ private:
     }
 
     /// What is seen of each sheet: the topmost region wins, by coverage; what nothing covers is background.
-    Rects uncover(const Raster& raster, const std::vector<int>& tiles) {
+    Rects uncover(const std::vector<TilePart>& tiles) {
         Rects changed;
         computed<std::vector<Box<Tile>>>(
-            tiles, [&](int tile) { return visibleTiles(raster.column(tile), raster.row(tile)); },
-            [&](int tile, const std::vector<Box<Tile>>& made) {
+            tiles, [&](const TilePart& tile) { return visibleTiles(tile.column, tile.row); },
+            [&](const TilePart& tile, const std::vector<Box<Tile>>& made) {
                 for (std::size_t s = 0; s < made.size(); ++s) {
-                    const auto rect = replace(parts_.visible[s], raster.column(tile), raster.row(tile), made[s]);
+                    const auto rect = replace(parts_.visible[s], tile.column, tile.row, made[s]);
                     if (!rect.empty()) changed.push_back(rect);
                 }
             });
@@ -224,14 +232,14 @@ private:
         return boxes;
     }
 
-    Rects lightLayers(const Raster& raster, const std::vector<int>& tiles) {
+    Rects lightLayers(const std::vector<TilePart>& tiles) {
         Rects changed;
         const Visible visible{document_, light(), cameraFromProjector_, parts_.visible};
         computed<LayerTiles>(
-            tiles, [&](int tile) { return layerTiles(visible, raster.column(tile), raster.row(tile)); },
-            [&](int tile, const LayerTiles& made) {
+            tiles, [&](const TilePart& tile) { return layerTiles(visible, tile, parts_.layers); },
+            [&](const TilePart& tile, const LayerTiles& made) {
                 const auto put = [&](TileGrid& grid, const Box<Tile>& box) {
-                    const auto rect = replace(grid, raster.column(tile), raster.row(tile), box);
+                    const auto rect = replace(grid, tile.column, tile.row, box);
                     if (!rect.empty()) changed.push_back(rect);
                 };
                 for (std::size_t l = 0; l < made.lit.size(); ++l) {
@@ -239,21 +247,32 @@ private:
                     put(parts_.layers.seen[l], made.seen[l]);
                 }
                 put(parts_.layers.hard, made.hard);
-                parts_.layers.blended[static_cast<std::size_t>(tile)] = made.blended;
             });
         return changed;
     }
 
-    void lightLevels(const Raster& raster, const std::vector<int>& tiles) {
+    void lightLevels(const std::vector<TilePart>& tiles) {
         computed<LevelTiles>(
-            tiles, [&](int tile) { return levelTiles(light(), parts_.layers, raster.column(tile), raster.row(tile)); },
-            [&](int tile, const LevelTiles& made) {
+            tiles, [&](const TilePart& tile) { return levelTiles(light(), parts_.layers, tile, images_); },
+            [&](const TilePart& tile, const LevelTiles& made) {
                 for (std::size_t l = 0; l < made.images.size(); ++l) {
-                    replace(images_[l], raster.column(tile), raster.row(tile), made.images[l]);
-                    replace(weights_[l], raster.column(tile), raster.row(tile), made.weights[l]);
+                    replace(images_[l], tile.column, tile.row, made.images[l]);
+                    replace(weights_[l], tile.column, tile.row, made.weights[l]);
                 }
             });
         computed_ = static_cast<int>(tiles.size() * images_.size());
+    }
+
+    int seamTiles() const {
+        int count = 0;
+        for (int row = 0; row < light().rows; ++row) {
+            for (int column = 0; column < light().columns; ++column) {
+                count += std::ranges::any_of(parts_.layers.lit, [&](const TileGrid& lit) {
+                    return !lit.isUniform(column, row, lit.tile(column, row)->v[0]);
+                });
+            }
+        }
+        return count;
     }
 
     const Document& document_;

@@ -15,7 +15,7 @@ struct CompileCounters {
     int computed = 0;   ///< worked out now
     int unchanged = 0;  ///< taken from the previous compile
     int uniform = 0;    ///< same everywhere: nothing but a box
-    int seamTiles = 0;  ///< of the raster: where blending was needed
+    int seamTiles = 0;  ///< of the raster: where light that an eye sees displaced or blurred ends
     bool operator==(const CompileCounters&) const = default;
 };
 

@@ -4,47 +4,23 @@
 #include <cmath>
 
 #include "core/compile/seam.h"
+#include "core/compile/shift_field.h"
 
 namespace ilf {
 
 namespace {
 
-constexpr auto kPixels = static_cast<std::size_t>(kTile);
-
-/// Nodes of a tile, interpolated along one row of pixels.
-class RowOfNodes {
-public:
-    RowOfNodes(const Lighting& light, const Layer& layer, int column, int row, int y) {
-        const float t = (static_cast<float>(y) + 0.5F) / kTile;
-        const LayerNode& a = light.node(layer, column, row);
-        const LayerNode& b = light.node(layer, column + 1, row);
-        const LayerNode& c = light.node(layer, column, row + 1);
-        const LayerNode& d = light.node(layer, column + 1, row + 1);
-        from_ = mixed(a, c, t);
-        to_ = mixed(b, d, t);
-    }
-    LayerNode at(int x) const { return mixed(from_, to_, (static_cast<float>(x) + 0.5F) / kTile); }
-
-private:
-    static Shift mixed(Shift a, Shift b, float t) { return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}; }
-    static LayerNode mixed(const LayerNode& a, const LayerNode& b, float t) {
-        return {mixed(a.toPainted, b.toPainted, t), mixed(a.toSeen, b.toSeen, t), mixed(a.toLit, b.toLit, t),
-                a.feather + t * (b.feather - a.feather), 0.0F};
-    }
-    LayerNode from_, to_;
-};
-
-/// A sheet around one tile.
+/// A sheet around the part of a tile that is worked out.
 struct SheetNear {
     Patch<std::uint8_t> weight;
     std::vector<BorderPiece> pieces;
-    Patch<float> squared;  ///< distance to pieces without a step
-    Patch<float> signedDistance;
+    Patch<float> squared;         ///< distance to pieces without a step
+    Patch<float> signedDistance;  ///< positive inside
 };
 
 /// The softer of ramp and brush: the ramp where the mask is harder, the brush's own slope where that is gentler.
 float softer(float ramp, float weight) {
-    const float own = weight / 255.0F;
+    const float own = weight * (1.0F / 255.0F);
     return own > 0.5F ? std::min(ramp, own) : std::max(ramp, own);
 }
 
@@ -55,40 +31,39 @@ float bandRamp(float a, float b) {
     return std::max(a, b) / (std::abs(a) + std::abs(b));
 }
 
-std::uint8_t toByte(float v) { return static_cast<std::uint8_t>(std::clamp(v + 0.5F, 0.0F, 255.0F)); }
+std::uint8_t toByte(float v) { return static_cast<std::uint8_t>(static_cast<int>(v + 0.5F)); }
 
-/// The largest displacement at a tile's corners, in whole pixels.
-int largestShift(const Lighting& light, const Layer& layer, int column, int row) {
-    float most = 0.0F;
-    for (const int j : {row, row + 1}) {
-        for (const int i : {column, column + 1}) {
-            const LayerNode& n = light.node(layer, i, j);
-            for (const Shift s : {n.toPainted, n.toSeen, n.toLit})
-                most = std::max({most, std::abs(s.x), std::abs(s.y)});
-        }
-    }
-    return static_cast<int>(std::ceil(most));
+float fullOf(const Lighting& light, const Layer& layer) {
+    return static_cast<float>(255.0 * light.weights[static_cast<std::size_t>(layer.level)] * layer.share);
 }
 
-SheetNear sheetNear(const Visible& visible, int sheet, int column, int row) {
+float stepReach(const Lighting& light) { return std::max(static_cast<float>(light.blendReach), light.distanceReach); }
+
+SheetNear sheetNear(const Visible& visible, int sheet, const TilePart& part) {
     const Lighting& light = visible.light;
     int shift = 0;
     for (const Layer& layer : light.layers) {
-        if (layer.sheet == sheet) shift = std::max(shift, largestShift(light, layer, column, row));
+        if (layer.sheet != sheet) continue;
+        for (const auto which : {&LayerNode::toPainted, &LayerNode::toSeen, &LayerNode::toLit})
+            shift = std::max(shift, ShiftField(light, layer, which, part.column, part.row).reach());
     }
-    const PixelRect<ProjectorFrame> tile = tileRect(column, row);
     SheetNear near;
-    near.weight = gathered(visible.weights[static_cast<std::size_t>(sheet)], tile.grown(light.layerReach));
-    near.pieces = borderPieces(visible, sheet, near.weight);
+    const PixelRect<ProjectorFrame> at = part.pixels.grown(shift + 2);
+    bool maySteps = false;
+    for (int other = 0; other < static_cast<int>(light.sheets.size()); ++other)
+        maySteps = maySteps || (other != sheet && light.mayStep(sheet, other));
     const float reach = light.distanceReach;
-    near.squared = Patch<float>(tile.grown(shift + 2), reach * reach);
+    const int around = static_cast<int>(std::ceil(maySteps ? std::max(reach, stepReach(light)) : reach)) + 1;
+    near.weight = gathered(visible.weights[static_cast<std::size_t>(sheet)], wholeSquares(at.grown(around)));
+    near.pieces = borderPieces(visible, sheet, near.weight);
+    near.squared = Patch<float>(at, reach * reach);
     lowerToDistance(near.pieces, false, reach, near.squared);
-    near.signedDistance = Patch<float>(near.squared.at);
-    for (int y = near.squared.at.y0; y < near.squared.at.y1; ++y) {
-        const std::uint8_t* weight = near.weight.row(y) + (near.squared.at.x0 - near.weight.at.x0);
+    near.signedDistance = Patch<float>(at);
+    for (int y = at.y0; y < at.y1; ++y) {
+        const std::uint8_t* weight = near.weight.row(y) + (at.x0 - near.weight.at.x0);
         const float* squared = near.squared.row(y);
         float* to = near.signedDistance.row(y);
-        for (int x = 0; x < near.squared.at.width(); ++x) {
+        for (int x = 0; x < at.width(); ++x) {
             const float d = std::sqrt(squared[x]);
             to[x] = weight[x] > 127 ? d : -d;
         }
@@ -97,90 +72,122 @@ SheetNear sheetNear(const Visible& visible, int sheet, int column, int row) {
 }
 
 /// Pixels whose nearest border is a depth step and not too far to matter.
-Tile besideSteps(const Lighting& light, const std::vector<SheetNear>& sheets, PixelRect<ProjectorFrame> tile) {
-    const float reach = std::max(static_cast<float>(light.blendReach), light.distanceReach);
-    Patch<float> toStep(tile, reach * reach);
+Tile besideSteps(const Lighting& light, const std::vector<SheetNear>& sheets, const TilePart& part,
+                 const Tile& before) {
+    const float reach = stepReach(light), soft2 = light.distanceReach * light.distanceReach;
+    Patch<float> toStep(part.pixels, reach * reach);
     for (const SheetNear& sheet : sheets)
         lowerToDistance(sheet.pieces, true, reach, toStep);
-    Tile hard;
-    for (int y = 0; y < kTile; ++y) {
-        for (int x = 0; x < kTile; ++x) {
-            const float step = toStep(tile.x0 + x, tile.y0 + y);
+    Tile hard = before;
+    for (int y = part.pixels.y0; y < part.pixels.y1; ++y) {
+        for (int x = part.pixels.x0; x < part.pixels.x1; ++x) {
+            const float step = toStep(x, y);
             bool nearest = step < reach * reach;
             for (const SheetNear& sheet : sheets) {
-                if (sheet.pieces.empty()) continue;
-                const float soft = sheet.squared(tile.x0 + x, tile.y0 + y);
-                nearest = nearest && (soft >= light.distanceReach * light.distanceReach || step <= soft);
+                const float soft = sheet.squared(x, y);
+                nearest = nearest && (soft >= soft2 || step <= soft);
             }
-            hard.at(x, y) = nearest ? 255 : 0;
+            hard.at(x % kTile, y % kTile) = nearest ? 255 : 0;
         }
     }
     return hard;
 }
 
-struct LitAndSeen {
-    Tile lit, seen;
-};
-
-LitAndSeen blendedLayer(const Lighting& light, const Layer& layer, const SheetNear& sheet, const Tile& hard, int column,
-                        int row) {
-    LitAndSeen tile;
-    const float full = static_cast<float>(255.0 * light.weights[static_cast<std::size_t>(layer.level)] * layer.share);
-    const bool closed = light.blending == Blending::closedForm;
-    const bool apart = light.blending == Blending::linearPerceived;
-    for (int y = 0; y < kTile; ++y) {
-        const RowOfNodes nodes(light, layer, column, row, y);
-        const int py = row * kTile + y;
-        const float cy = static_cast<float>(py) + 0.5F;
-        for (int x = 0; x < kTile; ++x) {
-            const int px = column * kTile + x;
-            const float cx = static_cast<float>(px) + 0.5F;
-            const auto weight = static_cast<float>(sheet.weight(px, py));
-            if (hard.at(x, y) != 0) {
-                tile.lit.at(x, y) = toByte(full * weight / 255.0F);
-                tile.seen.at(x, y) = static_cast<std::uint8_t>(weight);
-                continue;
-            }
-            const LayerNode node = nodes.at(x);
-            if (closed) {
-                const float ux = cx + node.toPainted.x, uy = cy + node.toPainted.y;
-                const float distance = sheet.signedDistance.sampled(ux, uy);
-                const float ramp = std::clamp(0.5F + distance / std::max(node.feather, 1e-3F), 0.0F, 1.0F);
-                tile.lit.at(x, y) = toByte(full * softer(ramp, sheet.weight.sampled(ux, uy)));
-                continue;
-            }
-            const float here = sheet.signedDistance(px, py);
-            const float seen =
-                softer(bandRamp(here, sheet.signedDistance.sampled(cx + node.toLit.x, cy + node.toLit.y)), weight);
-            const float lit =
-                apart ? softer(bandRamp(sheet.signedDistance.sampled(cx + node.toSeen.x, cy + node.toSeen.y), here),
-                               weight)
-                      : seen;
-            tile.lit.at(x, y) = toByte(full * lit);
-            tile.seen.at(x, y) = toByte(255.0F * seen);
+/// m on whole pixels of the painted picture: the ramp of the feather's width, or the brush where it is softer.
+Patch<float> profile(const Lighting& light, const Layer& layer, const SheetNear& sheet, const TilePart& part) {
+    const auto feather = [&](int i, int j) {
+        return std::max(1e-3F, light.node(layer, part.column + i, part.row + j).feather);
+    };
+    const float a = feather(0, 0), b = feather(1, 0), c = feather(0, 1), d = feather(1, 1);
+    Patch<float> m(sheet.signedDistance.at);
+    for (int y = m.at.y0; y < m.at.y1; ++y) {
+        const std::uint8_t* weight = sheet.weight.row(y) + (m.at.x0 - sheet.weight.at.x0);
+        const float* distance = sheet.signedDistance.row(y);
+        float* to = m.row(y);
+        const float v = static_cast<float>(y - part.row * kTile) / kTile;
+        const float from = a + v * (c - a), slope = (b + v * (d - b) - from) / kTile;
+        const int first = m.at.x0 - part.column * kTile;
+        for (int x = 0; x < m.at.width(); ++x) {
+            const float width = std::max(1e-3F, from + static_cast<float>(first + x) * slope);
+            const float ramp = std::min(1.0F, std::max(0.0F, 0.5F + distance[x] / width));
+            const float own = static_cast<float>(weight[x]) * (1.0F / 255.0F);
+            to[x] = own > 0.5F ? std::min(ramp, own) : std::max(ramp, own);
         }
     }
-    return tile;
+    return m;
 }
 
-/// Masks as they are: what `none` lights everywhere.
-Box<Tile> asPainted(const Box<Tile>& weight, double full) {
+void lightClosed(const Lighting& light, const Layer& layer, const SheetNear& sheet, const TilePart& part, Tile& lit) {
+    const float full = fullOf(light, layer);
+    const Patch<float> m = profile(light, layer, sheet, part);
+    const ShiftField toPainted(light, layer, &LayerNode::toPainted, part.column, part.row);
+    forEachSquare(part.pixels, [&](PixelRect<ProjectorFrame> square) {
+        const std::optional<float> flat = m.flatOver(toPainted.touched(square));
+        for (int y = square.y0; y < square.y1; ++y) {
+            std::uint8_t* to = &lit.at(square.x0 % kTile, y % kTile);
+            if (flat) {
+                std::fill(to, to + kSquare, toByte(full * *flat));
+                continue;
+            }
+            for (int x = 0; x < kSquare; ++x) {
+                const Shift shift = toPainted.at(square.x0 + x, y);
+                to[x] = toByte(full * m.sampled(square.x0 + x, y, shift.x, shift.y));
+            }
+        }
+    });
+}
+
+/// The paper's two ramps, which meet in the band between a border and its image.
+void lightLinear(const Lighting& light, const Layer& layer, const SheetNear& sheet, const TilePart& part, Tile& lit,
+                 Tile& seen) {
+    const float full = fullOf(light, layer);
+    const bool apparent = light.blending == Blending::linearPerceived;
+    const ShiftField toSeen(light, layer, &LayerNode::toSeen, part.column, part.row);
+    const ShiftField toLit(light, layer, &LayerNode::toLit, part.column, part.row);
+    const auto& distance = sheet.signedDistance;
+    for (int y = part.pixels.y0; y < part.pixels.y1; ++y) {
+        for (int x = part.pixels.x0; x < part.pixels.x1; ++x) {
+            const auto weight = static_cast<float>(sheet.weight(x, y));
+            const float here = distance(x, y);
+            const Shift back = toLit.at(x, y), ahead = toSeen.at(x, y);
+            const float whereSeen = softer(bandRamp(here, distance.sampled(x, y, back.x, back.y)), weight);
+            const float whereLit =
+                apparent ? softer(bandRamp(distance.sampled(x, y, ahead.x, ahead.y), here), weight) : whereSeen;
+            lit.at(x % kTile, y % kTile) = toByte(full * whereLit);
+            seen.at(x % kTile, y % kTile) = toByte(255.0F * whereSeen);
+        }
+    }
+}
+
+/// Masks as they are: what `none` lights everywhere, and every other blending far from borders.
+Box<Tile> asPainted(const Box<Tile>& weight, float full) {
     std::array<std::uint8_t, 256> lit;
     for (std::size_t v = 0; v < lit.size(); ++v)
-        lit[v] = toByte(static_cast<float>(full * static_cast<double>(v) / 255.0));
+        lit[v] = toByte(full * (static_cast<float>(v) * (1.0F / 255.0F)));
     if (weight.same(uniformTile(weight->v[0]))) return uniformTile(lit[weight->v[0]]);
     Tile tile;
-    for (std::size_t i = 0; i < kPixels * kPixels; ++i)
+    for (std::size_t i = 0; i < tile.v.size(); ++i)
         tile.v[i] = lit[weight->v[i]];
     return boxed(tile);
 }
 
+void paintHard(const Tile& hard, const Tile& weight, float full, const TilePart& part, Tile& lit, Tile& seen) {
+    for (int y = part.pixels.y0; y < part.pixels.y1; ++y) {
+        for (int x = part.pixels.x0; x < part.pixels.x1; ++x) {
+            const int i = x % kTile, j = y % kTile;
+            if (hard.at(i, j) == 0) continue;
+            lit.at(i, j) = toByte(full * (static_cast<float>(weight.at(i, j)) * (1.0F / 255.0F)));
+            seen.at(i, j) = weight.at(i, j);
+        }
+    }
+}
+
 }  // namespace
 
-LayerTiles layerTiles(const Visible& visible, int column, int row) {
+LayerTiles layerTiles(const Visible& visible, const TilePart& part, const LayerGrids& before) {
     const Lighting& light = visible.light;
-    const PixelRect<ProjectorFrame> around = tileRect(column, row).grown(light.layerReach);
-    LayerTiles tiles{{}, {}, uniformTile(0), false};
+    const PixelRect<ProjectorFrame> around = tileRect(part.column, part.row).grown(light.layerReach);
+    LayerTiles tiles{{}, {}, uniformTile(0)};
     std::vector<int> nearOf(light.sheets.size(), -1);
     std::vector<SheetNear> sheets;
     if (light.blending != Blending::none) {
@@ -188,26 +195,33 @@ LayerTiles layerTiles(const Visible& visible, int column, int row) {
             int& near = nearOf[static_cast<std::size_t>(layer.sheet)];
             if (near >= 0 || uniformNear(visible.weights[static_cast<std::size_t>(layer.sheet)], around)) continue;
             near = static_cast<int>(sheets.size());
-            sheets.push_back(sheetNear(visible, layer.sheet, column, row));
+            sheets.push_back(sheetNear(visible, layer.sheet, part));
         }
         const bool steps = std::ranges::any_of(
             sheets, [](const SheetNear& sheet) { return std::ranges::any_of(sheet.pieces, &BorderPiece::step); });
-        if (steps) tiles.hard = boxed(besideSteps(light, sheets, tileRect(column, row)));
-        tiles.blended = std::ranges::any_of(sheets, [](const SheetNear& sheet) { return !sheet.pieces.empty(); });
+        const Box<Tile>& hardBefore = before.hard.tile(part.column, part.row);
+        if (steps || (!sheets.empty() && !hardBefore.same(uniformTile(0))))
+            tiles.hard = boxed(besideSteps(light, sheets, part, *hardBefore));
     }
-    for (const Layer& layer : light.layers) {
-        const Box<Tile>& weight = visible.weights[static_cast<std::size_t>(layer.sheet)].tile(column, row);
-        const int near = nearOf[static_cast<std::size_t>(layer.sheet)];
-        if (near < 0) {
-            const double full = 255.0 * light.weights[static_cast<std::size_t>(layer.level)] * layer.share;
-            tiles.lit.push_back(asPainted(weight, full));
-            tiles.seen.push_back(weight);
+    for (std::size_t l = 0; l < light.layers.size(); ++l) {
+        const Layer& layer = light.layers[l];
+        const Box<Tile>& weight = visible.weights[static_cast<std::size_t>(layer.sheet)].tile(part.column, part.row);
+        const int index = nearOf[static_cast<std::size_t>(layer.sheet)];
+        if (index < 0) {
+            tiles.lit.push_back(asPainted(weight, fullOf(light, layer)));
+            tiles.seen.push_back(light.blending == Blending::none ? uniformTile(0) : weight);
             continue;
         }
-        const LitAndSeen tile =
-            blendedLayer(light, layer, sheets[static_cast<std::size_t>(near)], *tiles.hard, column, row);
-        tiles.lit.push_back(boxed(tile.lit));
-        tiles.seen.push_back(boxed(tile.seen));
+        const SheetNear& near = sheets[static_cast<std::size_t>(index)];
+        Tile lit = *before.lit[l].tile(part.column, part.row), seen = *before.seen[l].tile(part.column, part.row);
+        if (light.blending == Blending::closedForm) {
+            lightClosed(light, layer, near, part, lit);
+        } else {
+            lightLinear(light, layer, near, part, lit, seen);
+        }
+        if (!tiles.hard.same(uniformTile(0))) paintHard(*tiles.hard, *weight, fullOf(light, layer), part, lit, seen);
+        tiles.lit.push_back(boxed(lit));
+        tiles.seen.push_back(light.blending == Blending::closedForm ? uniformTile(0) : boxed(seen));
     }
     return tiles;
 }

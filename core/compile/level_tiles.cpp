@@ -4,167 +4,210 @@
 #include <cmath>
 
 #include "core/compile/seam.h"
+#include "core/compile/shift_field.h"
 
 namespace ilf {
 
 namespace {
 
-std::uint8_t rounded(double v) { return static_cast<std::uint8_t>(std::clamp(v + 0.5, 0.0, 255.0)); }
+constexpr auto kPixels = static_cast<std::size_t>(kTile) * kTile;
+using Plane = std::array<float, kPixels>;
 
-/// What one layer adds, in parts of a region's whole light, where the eye sees it.
-class SeenLight {
-public:
-    SeenLight(const Lighting& light, const LayerGrids& layers, std::size_t index, int column, int row)
-        : light_(light), layer_(light.layers[index]), lit_(layers.lit[index]), column_(column), row_(row),
-          perByte_(1.0F / (255.0F * static_cast<float>(light.weights[static_cast<std::size_t>(layer_.level)]))) {
-        tile_ = &*lit_.tile(column, row);
-        switch (light.blending) {
-        case Blending::none:
-            uniform_ = uniformTileValue(lit_);
-            break;
-        case Blending::linearObject:
-        case Blending::linearPerceived:
-            seen_ = &*layers.seen[index].tile(column, row);
-            uniform_ = uniformTileValue(layers.seen[index]);
-            perByte_ = static_cast<float>(layer_.share) / 255.0F;
-            break;
-        case Blending::closedForm:
-            uniform_ = uniformNear(lit_, tileRect(column, row).grown(light.blendReach));
-            if (!uniform_) blur();
-            break;
-        }
-    }
+std::size_t pixelOf(int x, int y) { return static_cast<std::size_t>((y % kTile) * kTile + x % kTile); }
 
-    /// The whole tile shows this much, lit and seen alike; nothing when it varies.
-    std::optional<float> uniform() const {
-        return uniform_ && uniformTileValue(lit_) ? std::optional(perByte_ * static_cast<float>(*uniform_))
-                                                  : std::nullopt;
-    }
-    int level() const { return layer_.level; }
-    std::uint8_t lit(int x, int y) const { return tile_->at(x, y); }
-    /// Light of this pixel itself, neither moved nor blurred: what counts beside a depth step and without blending.
-    float atPixel(int x, int y) const {
-        return static_cast<float>(tile_->at(x, y)) /
-               (255.0F * static_cast<float>(light_.weights[static_cast<std::size_t>(layer_.level)]));
-    }
-    float seen(int x, int y) const {
-        if (uniform_) return perByte_ * static_cast<float>(*uniform_);
-        if (seen_ != nullptr) return perByte_ * static_cast<float>(seen_->at(x, y));
-        if (light_.blending == Blending::none) return atPixel(x, y);
-        const float t = (static_cast<float>(y) + 0.5F) / kTile, u = (static_cast<float>(x) + 0.5F) / kTile;
-        const auto mix = [&](float a, float b, float c, float d) {
-            return (a + u * (b - a)) * (1.0F - t) + (c + u * (d - c)) * t;
-        };
-        const float dx = mix(back_[0].x, back_[1].x, back_[2].x, back_[3].x);
-        const float dy = mix(back_[0].y, back_[1].y, back_[2].y, back_[3].y);
-        return perByte_ * blurred_.sampled(static_cast<float>(column_ * kTile + x) + 0.5F + dx,
-                                           static_cast<float>(row_ * kTile + y) + 0.5F + dy);
-    }
+std::optional<std::uint8_t> uniformValue(const Box<Tile>& tile) {
+    return tile.same(uniformTile(tile->v[0])) ? std::optional(tile->v[0]) : std::nullopt;
+}
 
-private:
-    std::optional<std::uint8_t> uniformTileValue(const TileGrid& grid) const {
-        const Box<Tile>& tile = grid.tile(column_, row_);
-        return tile.same(uniformTile(tile->v[0])) ? std::optional(tile->v[0]) : std::nullopt;
+/// Light per step of a layer's image, in parts of a region's whole light.
+float perStep(const Lighting& light, const Layer& layer) {
+    return 1.0F / (255.0F * static_cast<float>(light.weights[static_cast<std::size_t>(layer.level)]));
+}
+
+/// What an eye sees of a layer all over a tile and as far around as matters, if that is the same everywhere.
+std::optional<float> evenlySeen(const Lighting& light, const LayerGrids& layers, std::size_t index,
+                                const TilePart& part) {
+    const Layer& layer = light.layers[index];
+    if (light.blending == Blending::none || light.blending == Blending::closedForm) {
+        const auto even = uniformNear(layers.lit[index], tileRect(part.column, part.row).grown(light.blendReach));
+        return even ? std::optional(perStep(light, layer) * static_cast<float>(*even)) : std::nullopt;
     }
-    /// Filters the lit pixels with the disc as it lies on them (R / s) and only then moves the result: the same as
-    /// moving first and filtering with R, without rounding in between.
-    void blur() {
-        float shift = 0.0F;
-        std::size_t n = 0;
-        for (const int j : {row_, row_ + 1}) {
-            for (const int i : {column_, column_ + 1}) {
-                back_[n] = light_.node(layer_, i, j).toLit;
-                shift = std::max({shift, std::abs(back_[n].x), std::abs(back_[n].y)});
-                ++n;
+    const auto even = uniformValue(layers.seen[index].tile(part.column, part.row));
+    return even ? std::optional(static_cast<float>(layer.share) / 255.0F * static_cast<float>(*even)) : std::nullopt;
+}
+
+/// Adds a layer's light where it is seen: blurred by the disc as it lies on the lit pixels (R / s), then moved, which
+/// equals moving first and blurring by R, without rounding in between.
+void addBlurred(const Lighting& light, const LayerGrids& layers, std::size_t index, const TilePart& part, Plane& seen) {
+    const Layer& layer = light.layers[index];
+    const ShiftField toLit(light, layer, &LayerNode::toLit, part.column, part.row);
+    const Disc& disc = light.disc(layer, part.column, part.row);
+    const Patch<std::uint8_t> lit = gathered(layers.lit[index], part.pixels.grown(toLit.reach() + disc.reach() + 3));
+    struct Square {
+        PixelRect<ProjectorFrame> pixels;
+        std::optional<std::uint8_t> flat;
+    };
+    std::vector<Square> squares;
+    PixelRect<ProjectorFrame> varied;
+    forEachSquare(part.pixels, [&](PixelRect<ProjectorFrame> square) {
+        const PixelRect<ProjectorFrame> touched = toLit.touched(square);
+        squares.push_back({square, lit.flatOver(touched.grown(disc.reach()))});
+        if (!squares.back().flat) varied = varied.united(touched);
+    });
+    const Patch<float> blurred = varied.empty() ? Patch<float>() : disc.averaged(lit, varied);
+    const float per = perStep(light, layer);
+    for (const Square& square : squares) {
+        const PixelRect<ProjectorFrame>& at = square.pixels;
+        for (int y = at.y0; y < at.y1; ++y) {
+            float* to = &seen[pixelOf(at.x0, y)];
+            for (int x = 0; x < kSquare; ++x) {
+                if (square.flat) {
+                    to[x] += per * static_cast<float>(*square.flat);
+                } else {
+                    const Shift shift = toLit.at(at.x0 + x, y);
+                    to[x] += per * blurred.sampled(at.x0 + x, y, shift.x, shift.y);
+                }
             }
         }
-        const Disc& disc = light_.disc(layer_, column_, row_);
-        const auto at = tileRect(column_, row_).grown(static_cast<int>(std::ceil(shift)) + 2);
-        blurred_ = disc.averaged(gathered(lit_, at.grown(disc.reach())), at);
     }
+}
 
-    const Lighting& light_;
-    const Layer& layer_;
-    const TileGrid& lit_;
-    int column_, row_;
-    float perByte_;
-    const Tile* tile_ = nullptr;
-    const Tile* seen_ = nullptr;
-    std::optional<std::uint8_t> uniform_;
-    std::array<Shift, 4> back_{};
-    Patch<float> blurred_;
-};
+/// Calls `visit(pixel index)` for the pixels of a part.
+template <class Visit>
+void forEachPixel(const TilePart& part, Visit&& visit) {
+    for (int y = part.pixels.y0; y < part.pixels.y1; ++y) {
+        const std::size_t from = pixelOf(part.pixels.x0, y);
+        for (std::size_t i = from; i < from + static_cast<std::size_t>(part.pixels.width()); ++i)
+            visit(i);
+    }
+}
 
-/// One pixel of all levels.
-class Mixer {
+/// One tile in the making, or one pixel standing for all of it.
+class LevelMixer {
 public:
-    explicit Mixer(const Lighting& light) : light_(light), images_(light.weights.size()) {
+    explicit LevelMixer(const Lighting& light) : light_(light) {
         const double weakest = *std::ranges::min_element(light.weights);
         slack_ = static_cast<float>(0.51 / (255.0 * std::max(weakest, 1e-3)));
     }
-
-    void start() { std::ranges::fill(images_, 0.0F), seen_ = 0.0F; }
-    void add(int level, float lit, float seen) { images_[static_cast<std::size_t>(level)] += lit, seen_ += seen; }
-    void finish() {
-        const auto base = static_cast<std::size_t>(light_.base);
-        // Blurs of different width overlap by more than all light here and there; all of them give way alike.
-        if (seen_ > 1.0F + 2.0F * slack_) {
-            for (float& image : images_)
-                image /= seen_;
-            return;
-        }
-        // What is missing by rounding alone stays missing: sharp light at one step of 255 would show on all blur.
-        const float missing = 1.0F - seen_;
-        if (missing > slack_) images_[base] = 255.0F * static_cast<float>(light_.weights[base]) * missing;
+    /// The base level's image where layers give `seen`. What is missing by rounding alone stays missing: sharp light at
+    /// one step of 255 would show on all blur.
+    float base(float seen) const {
+        const float missing = 1.0F - seen;
+        return missing > slack_ ? 255.0F * static_cast<float>(light_.weights[base_()]) * missing : 0.0F;
     }
-    std::uint8_t image(std::size_t level) const { return rounded(static_cast<double>(images_[level])); }
-    std::uint8_t weight(std::size_t level) const { return rounded(image(level) / light_.weights[level]); }
+    /// Blurs of different width overlap by more than all light here and there; all of them give way alike.
+    bool tooMuch(float seen) const { return seen > 1.0F + 2.0F * slack_; }
+
+    std::uint8_t weight(std::size_t level, std::uint8_t image) const {
+        const auto weight = static_cast<float>(light_.weights[level]);
+        return static_cast<std::uint8_t>(std::min(255.0F, static_cast<float>(image) / weight + 0.5F));
+    }
 
 private:
+    std::size_t base_() const { return static_cast<std::size_t>(light_.base); }
     const Lighting& light_;
-    std::vector<float> images_;
-    float seen_ = 0.0F, slack_ = 0.0F;
+    float slack_ = 0.0F;
 };
+
+std::uint8_t toByte(float v) { return static_cast<std::uint8_t>(static_cast<int>(std::min(255.0F, v + 0.5F))); }
+
+/// The tile when every layer is even over it and around.
+LevelTiles evenTiles(const Lighting& light, const LayerGrids& layers, const TilePart& part,
+                     const std::vector<std::optional<float>>& even) {
+    const LevelMixer mixer(light);
+    std::vector<float> images(light.weights.size(), 0.0F);
+    float seen = 0.0F;
+    for (std::size_t i = 0; i < even.size(); ++i) {
+        seen += *even[i];
+        images[static_cast<std::size_t>(light.layers[i].level)] +=
+            static_cast<float>(layers.lit[i].tile(part.column, part.row)->v[0]);
+    }
+    if (mixer.tooMuch(seen)) {
+        for (float& image : images)
+            image /= seen;
+    } else {
+        images[static_cast<std::size_t>(light.base)] = mixer.base(seen);
+    }
+    LevelTiles tiles;
+    for (std::size_t l = 0; l < images.size(); ++l) {
+        const std::uint8_t image = toByte(images[l]);
+        tiles.images.push_back(uniformTile(image));
+        tiles.weights.push_back(uniformTile(mixer.weight(l, image)));
+    }
+    return tiles;
+}
 
 }  // namespace
 
-LevelTiles levelTiles(const Lighting& light, const LayerGrids& layers, int column, int row) {
-    std::vector<SeenLight> seen;
-    seen.reserve(light.layers.size());
-    for (std::size_t i = 0; i < light.layers.size(); ++i)
-        seen.emplace_back(light, layers, i, column, row);
-    const std::size_t levels = light.weights.size();
-    const Tile& hard = *layers.hard.tile(column, row);
-    Mixer mixer(light);
+LevelTiles levelTiles(const Lighting& light, const LayerGrids& layers, const TilePart& part,
+                      const std::vector<TileGrid>& imagesBefore) {
+    std::vector<std::optional<float>> even;
+    bool allEven = true;
+    for (std::size_t i = 0; i < light.layers.size(); ++i) {
+        even.push_back(evenlySeen(light, layers, i, part));
+        allEven = allEven && even.back() && uniformValue(layers.lit[i].tile(part.column, part.row));
+    }
+    if (allEven) return evenTiles(light, layers, part, even);
+
+    // What an eye sees of all layers, pixel by pixel.
+    Plane seen;
+    forEachPixel(part, [&](std::size_t i) { seen[i] = 0.0F; });
+    for (std::size_t l = 0; l < light.layers.size(); ++l) {
+        const Layer& layer = light.layers[l];
+        if (even[l]) {
+            if (*even[l] != 0.0F) forEachPixel(part, [&](std::size_t i) { seen[i] += *even[l]; });
+        } else if (light.blending == Blending::closedForm) {
+            addBlurred(light, layers, l, part, seen);
+        } else {
+            const bool none = light.blending == Blending::none;
+            const Tile& from = *(none ? layers.lit : layers.seen)[l].tile(part.column, part.row);
+            const float per = none ? perStep(light, layer) : static_cast<float>(layer.share) / 255.0F;
+            forEachPixel(part, [&](std::size_t i) { seen[i] += per * static_cast<float>(from.v[i]); });
+        }
+    }
+    // Beside a depth step light counts where it is lit, neither moved nor blurred.
+    const Box<Tile>& hard = layers.hard.tile(part.column, part.row);
+    if (!hard.same(uniformTile(0))) {
+        forEachPixel(part, [&](std::size_t i) {
+            if (hard->v[i] == 0) return;
+            seen[i] = 0.0F;
+            for (std::size_t l = 0; l < light.layers.size(); ++l)
+                seen[i] += perStep(light, light.layers[l]) *
+                           static_cast<float>(layers.lit[l].tile(part.column, part.row)->v[i]);
+        });
+    }
+
+    const LevelMixer mixer(light);
+    bool anyTooMuch = false;
+    forEachPixel(part, [&](std::size_t i) { anyTooMuch |= mixer.tooMuch(seen[i]); });
     LevelTiles tiles;
-    if (std::ranges::all_of(seen, [](const SeenLight& layer) { return layer.uniform().has_value(); })) {
-        mixer.start();
-        for (const SeenLight& layer : seen)
-            mixer.add(layer.level(), layer.lit(0, 0), *layer.uniform());
-        mixer.finish();
-        for (std::size_t l = 0; l < levels; ++l) {
-            tiles.images.push_back(uniformTile(mixer.image(l)));
-            tiles.weights.push_back(uniformTile(mixer.weight(l)));
+    for (std::size_t level = 0; level < light.weights.size(); ++level) {
+        Plane image;
+        forEachPixel(part, [&](std::size_t i) { image[i] = 0.0F; });
+        for (std::size_t l = 0; l < light.layers.size(); ++l) {
+            const Box<Tile>& lit = layers.lit[l].tile(part.column, part.row);
+            if (light.layers[l].level != static_cast<int>(level) || lit.same(uniformTile(0))) continue;
+            forEachPixel(part, [&](std::size_t i) { image[i] += static_cast<float>(lit->v[i]); });
         }
-        return tiles;
-    }
-    std::vector<Tile> images(levels), weights(levels);
-    for (int y = 0; y < kTile; ++y) {
-        for (int x = 0; x < kTile; ++x) {
-            mixer.start();
-            const bool asPainted = hard.at(x, y) != 0;
-            for (const SeenLight& layer : seen)
-                mixer.add(layer.level(), layer.lit(x, y), asPainted ? layer.atPixel(x, y) : layer.seen(x, y));
-            mixer.finish();
-            for (std::size_t l = 0; l < levels; ++l) {
-                images[l].at(x, y) = mixer.image(l);
-                weights[l].at(x, y) = mixer.weight(l);
-            }
+        if (static_cast<int>(level) == light.base) {
+            forEachPixel(part, [&](std::size_t i) { image[i] = mixer.base(seen[i]); });
+        } else if (anyTooMuch) {
+            forEachPixel(part,
+                         [&](std::size_t i) { image[i] = mixer.tooMuch(seen[i]) ? image[i] / seen[i] : image[i]; });
         }
-    }
-    for (std::size_t l = 0; l < levels; ++l) {
-        tiles.images.push_back(boxed(images[l]));
-        tiles.weights.push_back(boxed(weights[l]));
+        Tile tile = *imagesBefore[level].tile(part.column, part.row);
+        forEachPixel(part, [&](std::size_t i) { tile.v[i] = toByte(image[i]); });
+        tiles.images.push_back(boxed(tile));
+        if (light.weights[level] == 1.0) {
+            tiles.weights.push_back(tiles.images.back());
+            continue;
+        }
+        std::array<std::uint8_t, 256> weightOf;
+        for (std::size_t v = 0; v < weightOf.size(); ++v)
+            weightOf[v] = mixer.weight(level, static_cast<std::uint8_t>(v));
+        for (std::uint8_t& v : tile.v)
+            v = weightOf[v];
+        tiles.weights.push_back(boxed(tile));
     }
     return tiles;
 }

@@ -7,7 +7,7 @@
 namespace ilf {
 
 struct CompileParts {
-    Lighting light;
+    Box<Lighting> light;
     std::vector<TileGrid> coverage;  ///< of each active region on the raster, topmost first, as if nothing lay above
     std::vector<TileGrid> visible;   ///< of each sheet of light: what is seen of it, 255 in all at every pixel
     LayerGrids layers;

@@ -57,17 +57,29 @@ struct Patch {
     }
     T operator()(int x, int y) const { return row(y)[x - at.x0]; }
 
-    /// Bilinear at a point of the frame (pixel centres at + 0.5), which must lie inside the outer pixel centres.
-    float sampled(float x, float y) const {
-        const float fx = x - 0.5F - static_cast<float>(at.x0), fy = y - 0.5F - static_cast<float>(at.y0);
-        const int ix = static_cast<int>(fx), iy = static_cast<int>(fy);
-        const float ax = fx - static_cast<float>(ix), ay = fy - static_cast<float>(iy);
-        const auto width = static_cast<std::size_t>(at.width());
-        const T* p = v.data() + static_cast<std::size_t>(iy) * width + static_cast<std::size_t>(ix);
-        const auto a = static_cast<float>(p[0]), b = static_cast<float>(p[1]);
-        const auto c = static_cast<float>(p[width]), d = static_cast<float>(p[width + 1]);
+    /// Bilinear at the centre of pixel (x, y) moved by (dx, dy). Depends on the pixels there and not on where the patch
+    /// was cut: position and displacement stay apart, so that no rounding sees the patch's corner.
+    float sampled(int x, int y, float dx, float dy) const {
+        const int wholeX = static_cast<int>(dx + 4096.0F) - 4096, wholeY = static_cast<int>(dy + 4096.0F) - 4096;
+        const float ax = dx - static_cast<float>(wholeX), ay = dy - static_cast<float>(wholeY);
+        const T* p = row(y + wholeY) + (x + wholeX - at.x0);
+        const T* q = p + at.width();
+        const float a = static_cast<float>(p[0]), b = static_cast<float>(p[1]);
+        const float c = static_cast<float>(q[0]), d = static_cast<float>(q[1]);
         const float top = a + (b - a) * ax, bottom = c + (d - c) * ax;
         return top + (bottom - top) * ay;
+    }
+    /// The one value of every pixel of `rect`, which must lie inside, or nothing.
+    std::optional<T> flatOver(PixelRect<ProjectorFrame> rect) const {
+        const T value = (*this)(rect.x0, rect.y0);
+        for (int y = rect.y0; y < rect.y1; ++y) {
+            const T* line = row(y) + (rect.x0 - at.x0);
+            bool differs = false;
+            for (int x = 0; x < rect.width(); ++x)
+                differs |= line[x] != value;
+            if (differs) return std::nullopt;
+        }
+        return value;
     }
 };
 
@@ -78,6 +90,10 @@ Patch<std::uint8_t> gathered(const TileGrid& grid, PixelRect<ProjectorFrame> rec
 inline std::optional<std::uint8_t> uniformNear(const TileGrid& grid, PixelRect<ProjectorFrame> rect) {
     return uniformOver(grid, rect.clipped(grid.size()));
 }
+
+/// Side of the squares that flat light is looked for in. Work inside a tile covers whole squares, so that what a pixel
+/// shows does not depend on how much of its tile was worked out anew.
+inline constexpr int kSquare = 8;
 
 /// The pixels of tile (column, row), not clipped at the edge.
 inline PixelRect<ProjectorFrame> tileRect(int column, int row) {

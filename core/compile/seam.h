@@ -12,22 +12,30 @@ struct LayerTiles {
     std::vector<Box<Tile>> lit;   ///< one per layer: what the projector lights
     std::vector<Box<Tile>> seen;  ///< linear blending only, one per layer: 255 * m as it appears
     Box<Tile> hard;               ///< above 0 beside a depth step: masks as painted, no blending, no compensation
-    bool blended = false;         ///< a border was near
 };
-LayerTiles layerTiles(const Visible& visible, int column, int row);
 
 /// Layers over the whole raster.
 struct LayerGrids {
     std::vector<TileGrid> lit, seen;
     TileGrid hard;
-    std::vector<bool> blended;  ///< per tile, row by row
 };
+
+/// What of a tile is to be worked out: whole squares of kSquare pixels. The rest is taken from `before`.
+struct TilePart {
+    int column = 0, row = 0;
+    PixelRect<ProjectorFrame> pixels;
+};
+
+/// Works out a part of a tile; `before` holds the rest.
+LayerTiles layerTiles(const Visible& visible, const TilePart& part, const LayerGrids& before);
 
 /// One tile of the image and of the weight of every level, from the layers around it.
 struct LevelTiles {
     std::vector<Box<Tile>> images;   ///< per level, 255 = full light
     std::vector<Box<Tile>> weights;  ///< per level, 255 = all light of a region
 };
-LevelTiles levelTiles(const Lighting& light, const LayerGrids& layers, int column, int row);
+/// The images as they were before.
+LevelTiles levelTiles(const Lighting& light, const LayerGrids& layers, const TilePart& part,
+                      const std::vector<TileGrid>& imagesBefore);
 
 }  // namespace ilf
