@@ -51,11 +51,13 @@ Image<std::uint8_t> simulatedScene(Second time, std::uint64_t number, bool locke
 
 Result<std::optional<Frame>> SimulatedCamera::read() {
     Second now = steadyNow();
-    if (number_ > 0 && now < due_) {
+    if (number_ == 0) due_ = now;
+    if (now < due_) {
         std::this_thread::sleep_for(std::chrono::duration<double>((due_ - now).si()));
         now = steadyNow();
     }
-    due_ = std::max(due_ + kPeriod, now);
+    // A reader that was late does not get the frames it missed.
+    due_ = std::max(due_, now - kPeriod) + kPeriod;
     ++number_;
     const Second shown = static_cast<double>(number_) * kPeriod;
     return Frame{simulatedScene(shown, number_, locked_), now, number_, 0.0};

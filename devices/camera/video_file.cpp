@@ -40,8 +40,10 @@ public:
             return std::nullopt;
         }
         const Second now = steadyNow();
-        if (number_ > 0 && now < due_) std::this_thread::sleep_for(std::chrono::duration<double>((due_ - now).si()));
+        if (number_ == 0) due_ = now;
+        if (now < due_) std::this_thread::sleep_for(std::chrono::duration<double>((due_ - now).si()));
         const Second shown = steadyNow();
+        // A reader that was late gets the next frame at once, but the ones after at their rate.
         due_ = std::max(due_, shown - period_) + period_;
         index_ += 1.0;
         return Frame{std::move(image), shown, ++number_, std::min(1.0, index_ / count_)};
