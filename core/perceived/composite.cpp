@@ -103,16 +103,17 @@ private:
         Block block = gathered(k, left, box, colours, opacity != nullptr, coarser);
         double originX = box.x0, originY = box.y0;
         if (!sharp) {
-            // Box-filtering has already spread the light by (c^2 - 1) / 12 of variance, the disc's is r^2 / 4.
+            // Averaging spreads the light by (c^2 - 1) / 12 of variance, and the wider tents by (c^2 - 1) / 6; a disc
+            // has r^2 / 4.
             const double c = coarser;
-            const double radius = std::sqrt(look.radius * look.radius - (c * c - 1.0) / 3.0) / c;
+            const double radius = std::sqrt(look.radius * look.radius - (c * c - 1.0)) / c;
             const int reach = discReach(radius);
             block = discBlurred(block, radius);
             originX -= reach * c;
             originY -= reach * c;
         }
-        addMagnified(into_, opacity, passing_, block, {originX, originY, static_cast<double>(coarser)}, look, colours,
-                     static_cast<float>(light_.weight));
+        addMagnified(into_, opacity, passing_, block, {originX, originY, static_cast<double>(coarser)}, look, sharp,
+                     colours, static_cast<float>(light_.weight));
     }
 
     /// Large discs are laid over averaged pixels: their cost stays that of a disc of ten.

@@ -9,8 +9,8 @@
 namespace ilf::view {
 namespace {
 
-/// Lines per pixel over which chords are averaged: the pixel areas are right to 1e-4.
-constexpr int kLines = 32;
+/// Lines across a pixel's tent over which chords are averaged: the weights are right to 1e-4.
+constexpr int kLines = 64;
 constexpr int kRowsAtOnce = 16;
 
 struct Tap {
@@ -18,19 +18,23 @@ struct Tap {
     float weight;
 };
 
-/// Length of [-h, h] inside the pixel centred at `x`.
-double chordInPixel(double h, double x) { return std::max(0.0, std::min(h, x + 0.5) - std::max(-h, x - 0.5)); }
+/// Integral of a pixel's tent (1 at its centre, 0 one pixel away) from the left up to `x`.
+double tentUpTo(double x) {
+    const double t = std::clamp(x, -1.0, 1.0);
+    return t < 0.0 ? 0.5 * (1.0 + t) * (1.0 + t) : 1.0 - 0.5 * (1.0 - t) * (1.0 - t);
+}
 
-/// Areas of the pixels of one kernel row inside the disc, `dy` pixels from the centre, with a 0 at both ends.
+/// Tents of the pixels of one kernel row inside the disc, `dy` pixels from the centre, with a 0 at both ends.
 std::vector<double> rowWeights(double radius, int reach, int dy) {
     std::vector<double> weights(static_cast<std::size_t>(2 * reach + 3), 0.0);
     for (int line = 0; line < kLines; ++line) {
-        const double y = dy - 0.5 + (line + 0.5) / kLines;
+        const double offset = -1.0 + 2.0 * (line + 0.5) / kLines;
+        const double y = dy + offset;
         const double square = radius * radius - y * y;
         if (square <= 0.0) continue;
-        const double half = std::sqrt(square);
+        const double half = std::sqrt(square), part = (1.0 - std::abs(offset)) * 2.0 / kLines;
         for (int dx = -reach; dx <= reach; ++dx) {
-            weights[static_cast<std::size_t>(dx + reach + 1)] += chordInPixel(half, dx) / kLines;
+            weights[static_cast<std::size_t>(dx + reach + 1)] += part * (tentUpTo(half - dx) - tentUpTo(-half - dx));
         }
     }
     return weights;
@@ -70,7 +74,7 @@ void addTaps(float* __restrict out, const float* __restrict sums, std::size_t co
 
 }  // namespace
 
-int discReach(double radius) { return static_cast<int>(std::ceil(radius + 0.5)); }
+int discReach(double radius) { return static_cast<int>(std::ceil(radius + 1.0)); }
 
 Block discBlurred(const Block& block, double radius) {
     const int reach = discReach(radius), channels = block.channels;

@@ -22,7 +22,8 @@ struct Block {
 /// How far a disc of `radius` pixels reaches, in whole pixels.
 int discReach(double radius);
 
-/// `block` blurred by the disc of `radius` pixels (uniform, integral 1; each pixel weighs as its area inside the disc).
+/// `block` blurred by the disc of `radius` pixels (uniform, integral 1). Between pixel centres `block` is bilinear,
+/// so each pixel weighs as what the disc holds of its tent, and a disc of radius 0 changes nothing.
 /// The result is larger by discReach on every side; outside `block` all is 0.
 ///
 /// A row of the kernel is flat but for its two ends, so over running sums of the row only the ends count: 12 r products

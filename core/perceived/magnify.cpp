@@ -10,12 +10,18 @@ namespace ilf::view {
 namespace {
 
 /// Four consecutive source pixels and their weights; the first may lie outside.
-struct Cubic {
+struct FourTaps {
     int first = 0;
     std::array<float, 4> weights{};
 };
 
-Cubic cubicAt(double source) {
+FourTaps bilinearAt(double source) {
+    const double left = std::floor(source);
+    const auto t = static_cast<float>(source - left);
+    return {static_cast<int>(left) - 1, {0.0F, 1.0F - t, t, 0.0F}};
+}
+
+FourTaps cubicAt(double source) {
     const double left = std::floor(source);
     const double t = source - left, t2 = t * t, t3 = t2 * t;
     return {static_cast<int>(left) - 1,
@@ -39,21 +45,22 @@ struct Axis {
 }  // namespace
 
 void addMagnified(Block& into, Block* opacity, const Block& passing, const Block& block, Placement placement,
-                  const Appearance& look, int colours, float weight) {
+                  const Appearance& look, bool sharp, int colours, float weight) {
+    const auto resample = sharp ? bilinearAt : cubicAt;
     const Axis across{look.centreX, placement.x, placement.pitch, look.magnification};
     const Axis down{look.centreY, placement.y, placement.pitch, look.magnification};
     const auto [x0, x1] = across.reached(block.width, into.width);
     const auto [y0, y1] = down.reached(block.height, into.height);
     if (x1 <= x0 || y1 <= y0) return;
 
-    std::vector<Cubic> columns;
+    std::vector<FourTaps> columns;
     for (int x = x0; x < x1; ++x)
-        columns.push_back(cubicAt(across.source(x)));
+        columns.push_back(resample(across.source(x)));
     const auto channels = static_cast<std::size_t>(block.channels);
     const auto colourCount = static_cast<std::size_t>(colours);
     parallelFor(y1 - y0, [&, y0 = y0, x0 = x0, x1 = x1](int r) {
         const int y = y0 + r;
-        const Cubic rows = cubicAt(down.source(y));
+        const FourTaps rows = resample(down.source(y));
         // Three pixels of nothing on both sides: no column needs a case.
         constexpr std::size_t kMargin = 3;
         std::vector<float> line(block.stride() + 2 * kMargin * channels);
@@ -67,7 +74,7 @@ void addMagnified(Block& into, Block* opacity, const Block& passing, const Block
                 out[i] += w * in[i];
         }
         for (int x = x0; x < x1; ++x) {
-            const Cubic& column = columns[static_cast<std::size_t>(x - x0)];
+            const FourTaps& column = columns[static_cast<std::size_t>(x - x0)];
             const int first = column.first + static_cast<int>(kMargin);
             if (first < 0 || first + 4 > block.width + 2 * static_cast<int>(kMargin)) continue;
             const float* from = line.data() + static_cast<std::size_t>(first) * channels;

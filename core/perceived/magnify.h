@@ -16,6 +16,6 @@ struct Placement {
 /// (Catmull-Rom) resampling, 0 outside the block. `passing` may be empty. Radiance is conserved: magnified light is no
 /// dimmer.
 void addMagnified(Block& into, Block* opacity, const Block& passing, const Block& block, Placement placement,
-                  const Appearance& look, int colours, float weight);
+                  const Appearance& look, bool sharp, int colours, float weight);
 
 }  // namespace ilf::view

@@ -60,6 +60,35 @@ Meeting meeting(const Document& document, const Plan& plan, Eye whose, double su
     return {centre.x * scale.x, centre.y * scale.y, chief / heightOfSlope, marginal * pixelsPerMetreHere};
 }
 
+/// What a ray meets on a surface: bilinear between pixel centres, nothing outside the picture.
+struct Met {
+    double coverage = 0.0;
+    std::array<double, 3> light{};
+};
+Met looked(const Image<float>& alpha, const Image<float>& light, const Radiance& albedo, double x, double y) {
+    Met met;
+    const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
+    const double fx = x - 0.5 - left, fy = y - 0.5 - top;
+    for (int corner = 0; corner < 4; ++corner) {
+        const int dx = corner & 1, dy = corner >> 1;
+        const int i = static_cast<int>(left) + dx, j = static_cast<int>(top) + dy;
+        if (i < 0 || j < 0 || i >= alpha.width() || j >= alpha.height()) continue;
+        const double part = (dx == 1 ? fx : 1.0 - fx) * (dy == 1 ? fy : 1.0 - fy);
+        const double covered = part * alpha.at(i, j);
+        if (covered <= 0.0) continue;
+        met.coverage += covered;
+        const double lit = covered * light.at(i, j);
+        for (int c = 0; c < 3; ++c)
+            met.light[static_cast<std::size_t>(c)] += lit * albedo.at(i, j, c);
+    }
+    return met;
+}
+
+/// More than half a pixel beyond all that a surface covers: a ray passes.
+bool outside(PixelRect<view::ViewFrame> covered, double x, double y) {
+    return x < covered.x0 - 0.5 || y < covered.y0 - 0.5 || x > covered.x1 + 0.5 || y > covered.y1 + 0.5;
+}
+
 /// Low-discrepancy points of the pupil's disc (R2 sequence), in metres.
 std::vector<Point<view::ViewFrame>> pupilPoints(double diameter, int samples) {
     std::vector<Point<view::ViewFrame>> points;
@@ -123,14 +152,11 @@ Result<Radiance> perceivedReference(const Document& document, const Plan& plan, 
                         const Meeting& m = meetings[l][k];
                         const double atX = m.centreX + m.gain * (x + 0.5 - m.centreX) + m.spread * px;
                         const double atY = m.centreY + m.gain * (y + 0.5 - m.centreY) + m.spread * py;
-                        if (!(atX >= 0.0 && atY >= 0.0 && atX < size.width && atY < size.height)) continue;
-                        const int i = static_cast<int>(atX), j = static_cast<int>(atY);
-                        const double hit = surfaces[k].alpha.at(i, j);
-                        if (hit <= 0.0) continue;
-                        const double light = passing * hit * lights[l].light.at(i, j);
-                        for (int c = 0; c < 3; ++c)
-                            sum[static_cast<std::size_t>(c)] += light * albedo.at(i, j, c);
-                        passing *= 1.0 - hit;
+                        if (outside(surfaces[k].covered, atX, atY)) continue;
+                        const Met met = looked(surfaces[k].alpha, lights[l].light, albedo, atX, atY);
+                        for (std::size_t c = 0; c < 3; ++c)
+                            sum[c] += passing * met.light[c];
+                        passing *= 1.0 - met.coverage;
                     }
                 }
             }

@@ -20,17 +20,17 @@ Block noise(int width, int height, int channels, unsigned seed) {
     return block;
 }
 
-/// Area of a pixel inside the disc, by points.
-double areaInside(double radius, int dx, int dy) {
-    const int n = 64;
-    int inside = 0;
+/// What a disc holds of the tent of the pixel at (dx, dy), by points.
+double tentInside(double radius, int dx, int dy) {
+    const int n = 128;
+    double sum = 0.0;
     for (int j = 0; j < n; ++j) {
         for (int i = 0; i < n; ++i) {
-            const double x = dx - 0.5 + (i + 0.5) / n, y = dy - 0.5 + (j + 0.5) / n;
-            inside += x * x + y * y < radius * radius ? 1 : 0;
+            const double u = -1.0 + 2.0 * (i + 0.5) / n, v = -1.0 + 2.0 * (j + 0.5) / n;
+            if (std::hypot(dx + u, dy + v) < radius) sum += (1.0 - std::abs(u)) * (1.0 - std::abs(v));
         }
     }
-    return static_cast<double>(inside) / (n * n);
+    return 4.0 * sum / (n * n);
 }
 
 }  // namespace
@@ -41,6 +41,10 @@ TEST_CASE("disc blur: equals the sum over all pixels under the disc") {
         const Block blurred = discBlurred(block, radius);
         const int reach = discReach(radius);
         REQUIRE(blurred.width == 23 + 2 * reach);
+        const int side = 2 * reach + 1;
+        std::vector<double> kernel;
+        for (int k = 0; k < side * side; ++k)
+            kernel.push_back(tentInside(radius, k % side - reach, k / side - reach));
         double worst = 0.0;
         for (int y = 0; y < blurred.height; ++y) {
             for (int x = 0; x < blurred.width; ++x) {
@@ -49,7 +53,8 @@ TEST_CASE("disc blur: equals the sum over all pixels under the disc") {
                     for (int dx = -reach; dx <= reach; ++dx) {
                         const int i = x - reach + dx, j = y - reach + dy;
                         if (i < 0 || j < 0 || i >= block.width || j >= block.height) continue;
-                        sum += areaInside(radius, dx, dy) * static_cast<double>(block.row(j)[i * 3 + 1]);
+                        sum += kernel[static_cast<std::size_t>((dy + reach) * side + dx + reach)] *
+                               static_cast<double>(block.row(j)[i * 3 + 1]);
                     }
                 }
                 sum /= std::numbers::pi * radius * radius;
