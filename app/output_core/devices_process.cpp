@@ -4,6 +4,7 @@
 #include <csignal>
 
 #include "app/output_core/log.h"
+#include "app/output_core/priority.h"
 #include "app/output_core/roles.h"
 #include "app/output_core/signals.h"
 #include "devices/simulated/device_server.h"
@@ -13,6 +14,7 @@ namespace ilf::app {
 int runDevices(const std::filesystem::path& runtimeDirectory) {
     const Signals signals{SIGTERM, SIGINT};
     prctl(PR_SET_NAME, "ilf-devices");  // its own name: whoever kills the core by name leaves the machine running
+    comeFirst();
     startLog("simulated-devices");
     const auto served = devices::serveDevices(runtimeDirectory, signals.descriptor(),
                                               [](const std::string& line) { spdlog::info("{}", line); });

@@ -8,6 +8,7 @@
 
 #include "app/output_core/log.h"
 #include "app/output_core/player.h"
+#include "app/output_core/priority.h"
 #include "app/output_core/roles.h"
 #include "app/output_core/signals.h"
 #include "app/output_core/studio_link.h"
@@ -39,6 +40,7 @@ private:
 int runPlayer(const std::filesystem::path& runtimeDirectory) {
     const Signals signals{SIGTERM, SIGINT};
     prctl(PR_SET_NAME, "ilf-player");
+    comeFirst();
     startLog("output-core-player");
     const auto lock = devices::FileLock::tryTake(devices::playerLock(runtimeDirectory));
     if (!lock || !*lock) {

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "app/output_core/log.h"
+#include "app/output_core/priority.h"
 #include "app/output_core/roles.h"
 #include "app/output_core/signals.h"
 #include "devices/link/runtime_directory.h"
@@ -171,6 +172,7 @@ private:
 
 int runSupervisor(const std::filesystem::path& runtimeDirectory, bool leaveDevices) {
     const Signals signals{SIGTERM, SIGINT, SIGCHLD};
+    comeFirst();
     startLog("output-core");
     const auto lock = devices::FileLock::tryTake(devices::supervisorLock(runtimeDirectory));
     if (!lock || !*lock) {

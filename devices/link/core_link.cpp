@@ -23,8 +23,14 @@ Result<void> CoreLink::send(const Program& program, std::uint64_t revision, Why 
     if (!status_.connected)
         return fail(Fault::device,
                     "The output core is not connected, so nothing was sent; press TAKE when it is back.");
+    Update next{program, contentHash(program), revision, why, status_.hold};
+    // A dab right behind a take that still waits replaces its program, not the operator's wish to play.
+    if (waiting_ && waiting_->why == Why::take && why == Why::live) {
+        next.why = Why::take;
+        next.hold = waiting_->hold;
+    }
     if (waiting_) drop();
-    waiting_ = Update{program, contentHash(program), revision, why, status_.hold};
+    waiting_ = std::move(next);
     transmit(Clock::now());
     return {};
 }
@@ -37,7 +43,10 @@ Result<void> CoreLink::safeLight() {
                                "to be sure, switch the projector off and on.");
 }
 
-void CoreLink::drop() { status_.droppedUpdates += 1, ++dropped_; }
+void CoreLink::drop() {
+    ++dropped_;
+    ++status_.droppedUpdates;
+}
 
 void CoreLink::transmit(Clock::time_point now) {
     if (underWay_ || !waiting_ || !status_.connected) return;

@@ -17,8 +17,10 @@ Result<Body> DeviceClient::call(const Body& request) {
         return fail(Fault::device, std::string("The simulated lens and projector ") + how +
                                        ". The light is steady once they are back; check that their process runs.");
     };
-    // A whole program takes longer than a word.
-    const auto limit = std::holds_alternative<ProgramUpdate>(request) ? 5 * timeout_ : timeout_;
+    // A question is asked twice before the devices count as lost; an order gets that time at once, and a whole program
+    // more of it.
+    const bool isQuestion = std::holds_alternative<Read>(request) || std::holds_alternative<ReadSlot>(request);
+    const auto limit = isQuestion ? timeout_ : (std::holds_alternative<ProgramUpdate>(request) ? 5 : 2) * timeout_;
     const auto deadline = Clock::now() + limit;
     const std::uint64_t id = ++lastId_;
     // A local socket is connected within a few milliseconds if somebody listens.

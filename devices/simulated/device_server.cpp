@@ -12,7 +12,7 @@ namespace {
 
 // A player says something every 100 ms; one that is silent this long is dead, stopped or hung. The light must be safe
 // within a second.
-constexpr std::int64_t kWatchdog_ns = 600'000'000;
+constexpr std::int64_t kWatchdog_ns = 750'000'000;
 
 bool readable(int fd) {
     pollfd item{fd, POLLIN, 0};

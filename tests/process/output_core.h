@@ -106,6 +106,14 @@ inline bool safe(const devices::DeviceState& s) {
     return s.light == devices::LightMode::steady && s.lens == devices::LensMode::rest && s.hashShown == 0;
 }
 
+/// What the devices were told last, for a failing check.
+inline std::string words(const devices::DeviceState& s) {
+    std::string out = "watchdog trips: " + std::to_string(s.watchdogTrips) + "; log:";
+    for (const auto& line : s.log)
+        out += "\n  " + line;
+    return out;
+}
+
 /// What must hold after whatever happened.
 inline void checkOrderKept(const devices::DeviceState& s) {
     CHECK(s.rateChangesUnderSlottedLight == 0);

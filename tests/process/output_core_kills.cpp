@@ -93,7 +93,7 @@ TEST_CASE("studios killed at random moments of a stroke never change more than t
         // What had arrived is played; then nothing changes any more.
         std::this_thread::sleep_for(milliseconds(200));
         const auto before = core.deviceState();
-        CHECK(before.light == LightMode::slotted);
+        CHECK_MESSAGE(before.light == LightMode::slotted, words(before));
         std::this_thread::sleep_for(milliseconds(200));
         const auto after = core.deviceState();
         CHECK(after.hashShown == before.hashShown);
@@ -125,7 +125,7 @@ TEST_CASE("the player killed at random moments: within a second steady light and
         std::this_thread::sleep_for(milliseconds(50));
         const auto state = core.deviceState();
         CHECK(safe(state));
-        CHECK(state.watchdogTrips == 0);
+        CHECK_MESSAGE(state.watchdogTrips == 0, words(state));
         checkOrderKept(state);
     }
 }
