@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/perceived/border_search.h"
 #include "core/perceived/composite.h"
 
 namespace ilf {
@@ -12,118 +13,12 @@ namespace {
 using view::Appearance;
 using view::Block;
 using view::Light;
+using view::Lit;
+using view::LitRegions;
 using view::Surface;
 using view::ViewFrame;
 
 constexpr int kSamples = 129;
-/// The normal is read from the mask within this many pixels of the border.
-constexpr int kNormalReach = 4;
-
-/// The regions of a document and how the plan lights them, topmost first, the background last.
-struct Lit {
-    const Region* region;
-    std::optional<int> level;
-    bool blurred = false;
-};
-
-class Regions {
-public:
-    explicit Regions(const Compiled& compiled) : size_(compiled.document.scene.size()) {
-        for (const Region* region : activeRegions(compiled.document))
-            add(compiled.plan, region);
-        if (compiled.document.background) add(compiled.plan, &*compiled.document.background);
-    }
-    const std::vector<Lit>& all() const { return all_; }
-    bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < size_.width && y < size_.height; }
-
-    /// The topmost that covers at least half of a pixel: an index into all().
-    std::size_t owner(int x, int y) const {
-        for (std::size_t i = 0; i < all_.size(); ++i) {
-            if (all_[i].region->mask.empty() || all_[i].region->mask.at(x, y) >= 128) return i;
-        }
-        return all_.size() - 1;
-    }
-    /// What each shows of a pixel, as layers do.
-    void shares(int x, int y, std::vector<float>& shares) const {
-        float left = 1.0F;
-        for (std::size_t i = 0; i < all_.size(); ++i) {
-            const Mask& mask = all_[i].region->mask;
-            shares[i] = mask.empty() ? left : left * (static_cast<float>(mask.at(x, y)) / 255.0F);
-            left -= shares[i];
-        }
-    }
-
-private:
-    void add(const Plan& plan, const Region* region) {
-        const auto planned = std::ranges::find(plan.regions, region->id, &RegionPlan::id);
-        const auto level = planned == plan.regions.end() ? std::nullopt : planned->level;
-        all_.push_back({region, level, level && plan.levels[static_cast<std::size_t>(*level)].kind == LevelKind::blur});
-    }
-    Size size_;
-    std::vector<Lit> all_;
-};
-
-/// Two pixels side by side: one blurred, one lit at another level.
-struct Crossing {
-    std::size_t blurred = 0, other = 0;
-    int x = 0, y = 0;    ///< the blurred pixel
-    int dx = 0, dy = 0;  ///< towards the other
-};
-
-std::optional<Crossing> crossingAt(const Regions& regions, int x, int y) {
-    if (!regions.inside(x, y)) return std::nullopt;
-    const std::size_t here = regions.owner(x, y);
-    if (!regions.all()[here].blurred) return std::nullopt;
-    for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
-        if (!regions.inside(x + dx, y + dy)) continue;
-        const std::size_t there = regions.owner(x + dx, y + dy);
-        if (regions.all()[there].level != regions.all()[here].level) return Crossing{here, there, x, y, dx, dy};
-    }
-    return std::nullopt;
-}
-
-/// Rings of growing size around the cursor, until nothing nearer can come.
-std::optional<Crossing> nearestCrossing(const Regions& regions, Point<CameraFrame> cursor, double within) {
-    std::optional<Crossing> nearest;
-    double best = within;
-    const int cx = static_cast<int>(std::floor(cursor.x)), cy = static_cast<int>(std::floor(cursor.y));
-    const auto look = [&](int x, int y) {
-        const double distance = std::hypot(x + 0.5 - cursor.x, y + 0.5 - cursor.y);
-        if (distance > best) return;
-        if (const auto crossing = crossingAt(regions, x, y)) {
-            nearest = crossing;
-            best = distance;
-        }
-    };
-    look(cx, cy);
-    for (int ring = 1; ring - 1 <= best; ++ring) {
-        for (int along = -ring; along <= ring; ++along) {
-            look(cx + along, cy - ring);
-            look(cx + along, cy + ring);
-            look(cx - ring, cy + along);
-            look(cx + ring, cy + along);
-        }
-    }
-    return nearest;
-}
-
-/// From the blurred side outwards: against the slope of its share around the border.
-std::pair<double, double> normalAt(const Regions& regions, const Crossing& crossing) {
-    double nx = 0.0, ny = 0.0;
-    std::vector<float> shares(regions.all().size());
-    for (int dy = -kNormalReach; dy <= kNormalReach; ++dy) {
-        for (int dx = -kNormalReach; dx <= kNormalReach; ++dx) {
-            const int x = crossing.x + dx, y = crossing.y + dy;
-            if (dx * dx + dy * dy > kNormalReach * kNormalReach || !regions.inside(x, y)) continue;
-            regions.shares(x, y, shares);
-            nx -= static_cast<double>(shares[crossing.blurred]) * dx;
-            ny -= static_cast<double>(shares[crossing.blurred]) * dy;
-        }
-    }
-    const double length = std::hypot(nx, ny);
-    if (length < 1e-6) return {crossing.dx, crossing.dy};
-    return {nx / length, ny / length};
-}
 
 /// The scene around a border, all of it at the border's own distances.
 struct Patch {
@@ -134,7 +29,7 @@ struct Patch {
 };
 
 /// Hard masks: each pixel is lit in its owner's level; neutral ones evenly in all lit slots.
-std::vector<Light> hardLights(const Regions& regions, const Plan& plan, PixelRect<ViewFrame> window) {
+std::vector<Light> hardLights(const LitRegions& regions, const Plan& plan, PixelRect<ViewFrame> window) {
     const auto total = static_cast<double>(plan.slots.size());
     double litSlots = 0.0;
     for (const Level& level : plan.levels)
@@ -158,7 +53,7 @@ std::vector<Light> hardLights(const Regions& regions, const Plan& plan, PixelRec
 }
 
 /// Nothing where a region has no distance.
-std::vector<SceneLayer> patchLayers(const Document& document, const Regions& regions, Point<CameraFrame> at,
+std::vector<SceneLayer> patchLayers(const Document& document, const LitRegions& regions, Point<CameraFrame> at,
                                     PixelRect<ViewFrame> window) {
     const Size size{window.width(), window.height()};
     const std::size_t count = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
@@ -203,89 +98,114 @@ float sampled(const Block& image, double x, double y) {
     return (1.0F - fy) * ((1.0F - fx) * top[i] + fx * top[right]) + fy * ((1.0F - fx) * bottom[i] + fx * bottom[right]);
 }
 
+/// The blurred surface at the border and how its light is displaced there; lengths in picture pixels.
+struct Border {
+    Metre distance;
+    double pixelsPerMetre = 0.0;
+    double radius = 0.0;  ///< of its blur disc
+    double shift = 0.0;   ///< of its light, for the eye where it is larger
+    double seam = 0.0;    ///< the part of the shift along the normal, positive outwards
+};
+
+Border borderAt(const Compiled& compiled, const SeamProfile& profile, Metre distance, Dioptre power) {
+    const Plan& plan = compiled.plan;
+    Border border{distance, pixelsPerMetre(compiled.document, distance), 0.0, 0.0, 0.0};
+    border.radius = border.pixelsPerMetre * blurRadiusOnSurface(plan.input.eye, distance, plan.focusPower, power).si();
+    const double stretch = magnification(plan.input.eye, distance, plan.focusPower, power) - 1.0;
+    for (const Eye eye : {Eye::left, Eye::right}) {
+        const Point<CameraFrame> c = opticalCentre(compiled.document, eye, distance);
+        const double dx = profile.at.x - c.x, dy = profile.at.y - c.y;
+        border.shift = std::max(border.shift, std::abs(stretch) * std::hypot(dx, dy));
+        const double seam = stretch * (dx * profile.nx + dy * profile.ny);
+        if (std::abs(seam) >= std::abs(border.seam)) border.seam = seam;
+    }
+    return border;
+}
+
+/// A square around the border that holds `reach` pixels of profile and all that can shine into it.
+Patch patchAround(const Compiled& compiled, const LitRegions& regions, Point<CameraFrame> at, const Border& border,
+                  double reach) {
+    // A profile longer than this many pixels would take seconds, and no screen shows it.
+    constexpr double kMostPixels = 1024.0;
+    const double halo = std::min(reach + border.radius + border.shift + 3.0, kMostPixels);
+    const auto lower = [&](double v) { return static_cast<int>(std::floor(v - halo)); };
+    const auto upper = [&](double v) { return static_cast<int>(std::ceil(v + halo)); };
+    const PixelRect<CameraFrame> square =
+        PixelRect<CameraFrame>{lower(at.x), lower(at.y), upper(at.x), upper(at.y)}.clipped(
+            compiled.document.scene.size());
+    Patch patch;
+    patch.window = {square.x0, square.y0, square.x1, square.y1};
+    const Size size{square.width(), square.height()};
+    patch.surfaces =
+        view::surfaces(patchLayers(compiled.document, regions, at, patch.window), {0, 0, size.width, size.height});
+    patch.before = hardLights(regions, compiled.plan, patch.window);
+    patch.after = view::lights(compiled.document, compiled.plan, compiled.program,
+                               view::viewScale(compiled.document, 1.0), patch.window);
+    patch.white = Image<float>(
+        size, 1,
+        std::vector<float>(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height), 1.0F));
+    return patch;
+}
+
+/// What an eye that looks at the blurred surface receives from the patch.
+Block seen(const Compiled& compiled, const Patch& patch, Metre attended, Eye eye, const std::vector<Light>& lights) {
+    const Plan& plan = compiled.plan;
+    const view::Attention attention =
+        plan.input.camera ? view::Attention{} : view::Attention{true, attended, plan.focusPower, {}};
+    Block image(patch.white.width(), patch.white.height(), 1);
+    for (const Light& light : lights) {
+        std::vector<Appearance> looks;
+        for (const Surface& surface : patch.surfaces) {
+            looks.push_back(view::appearance(compiled.document, plan, eye, attention,
+                                             view::viewScale(compiled.document, 1.0), patch.window, surface.distance,
+                                             light.power));
+        }
+        view::addLight(image, patch.surfaces, looks, patch.white, light);
+    }
+    return image;
+}
+
 }  // namespace
 
 std::optional<SeamProfile> seamProfile(const Compiled& compiled, Point<CameraFrame> cursor, double withinPixels) {
-    const Document& document = compiled.document;
     const Plan& plan = compiled.plan;
-    if (!document.scene.picture || !plan.sweeps() || compiled.program.imageOfSlot.size() != plan.slots.size()) {
+    if (!compiled.document.scene.picture || !plan.sweeps() ||
+        compiled.program.imageOfSlot.size() != plan.slots.size()) {
         return std::nullopt;
     }
-    const Regions regions(compiled);
-    const auto crossing = nearestCrossing(regions, cursor, withinPixels);
+    const LitRegions regions(compiled);
+    const auto crossing = view::nearestCrossing(regions, cursor, withinPixels);
     if (!crossing) return std::nullopt;
 
     SeamProfile profile;
     profile.at = {crossing->x + 0.5 + 0.5 * crossing->dx, crossing->y + 0.5 + 0.5 * crossing->dy};
-    std::tie(profile.nx, profile.ny) = normalAt(regions, *crossing);
+    std::tie(profile.nx, profile.ny) = view::normalAt(regions, *crossing);
     const Lit& blurred = regions.all()[crossing->blurred];
     profile.blurred = blurred.region->id;
     profile.other = regions.all()[crossing->other].region->id;
-
-    const auto distance = distanceAt(document, *blurred.region, profile.at);
+    const auto distance = distanceAt(compiled.document, *blurred.region, profile.at);
     if (!distance) return std::nullopt;
-    const Dioptre power = plan.levels[static_cast<std::size_t>(*blurred.level)].power;
-    const double pixels = pixelsPerMetre(document, *distance);
-    const double radius = pixels * blurRadiusOnSurface(plan.input.eye, *distance, plan.focusPower, power).si();
-    const double stretch = magnification(plan.input.eye, *distance, plan.focusPower, power) - 1.0;
-    double farthestShift = 0.0;
-    for (const Eye eye : {Eye::left, Eye::right}) {
-        const Point<CameraFrame> c = opticalCentre(document, eye, *distance);
-        const double along = (profile.at.x - c.x) * profile.nx + (profile.at.y - c.y) * profile.ny;
-        farthestShift = std::max(farthestShift, std::abs(stretch) * std::hypot(profile.at.x - c.x, profile.at.y - c.y));
-        const double width = stretch * along / pixels * 1e3;
-        if (std::abs(width) < std::abs(profile.seamWidth_mm)) continue;
-        profile.seamWidth_mm = width;
-    }
+    const Border border =
+        borderAt(compiled, profile, *distance, plan.levels[static_cast<std::size_t>(*blurred.level)].power);
+    const auto millimetres = [&](double pixels) { return pixels / border.pixelsPerMetre * 1e3; };
     // Magnified light moves away from the centre: outwards over the neighbour (overlap) or away from it (gap).
-    profile.gap = profile.seamWidth_mm < 0.0;
-    profile.seamWidth_mm = std::abs(profile.seamWidth_mm);
+    profile.gap = border.seam < 0.0;
+    profile.seamWidth_mm = millimetres(std::abs(border.seam));
 
     // Far enough to both sides that all blending lies inside.
-    const double reach =
-        std::max(4.0, pixels * document.seam.feather.si() + 2.0 * radius + pixels * profile.seamWidth_mm * 1e-3);
-    const double halo = std::min(reach + radius + farthestShift + 3.0, 4096.0);
-    const view::ViewScale scale = view::viewScale(document, 1.0);
-    const PixelRect<CameraFrame> around = PixelRect<CameraFrame>{static_cast<int>(std::floor(profile.at.x - halo)),
-                                                                 static_cast<int>(std::floor(profile.at.y - halo)),
-                                                                 static_cast<int>(std::ceil(profile.at.x + halo)),
-                                                                 static_cast<int>(std::ceil(profile.at.y + halo))}
-                                              .clipped(scale.size);
-    Patch patch;
-    patch.window = {around.x0, around.y0, around.x1, around.y1};
-    const Size size{around.width(), around.height()};
-    patch.surfaces =
-        view::surfaces(patchLayers(document, regions, profile.at, patch.window), {0, 0, size.width, size.height});
-    patch.before = hardLights(regions, plan, patch.window);
-    patch.after = view::lights(document, plan, compiled.program, scale, patch.window);
-    patch.white = Image<float>(
-        size, 1,
-        std::vector<float>(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height), 1.0F));
-
-    // The eye looks at the blurred surface, through the power that shows it sharp.
-    const view::Attention attention =
-        plan.input.camera ? view::Attention{} : view::Attention{true, *distance, plan.focusPower, {}};
-    const auto seen = [&](Eye eye, const std::vector<Light>& lights) {
-        Block image(size.width, size.height, 1);
-        for (const Light& light : lights) {
-            std::vector<Appearance> looks;
-            for (const Surface& surface : patch.surfaces) {
-                looks.push_back(view::appearance(document, plan, eye, attention, scale, patch.window, surface.distance,
-                                                 light.power));
-            }
-            view::addLight(image, patch.surfaces, looks, patch.white, light);
-        }
-        return image;
-    };
+    const double feather = border.pixelsPerMetre * compiled.document.seam.feather.si();
+    const double reach = std::max(4.0, feather + 2.0 * border.radius + std::abs(border.seam));
+    const Patch patch = patchAround(compiled, regions, profile.at, border, reach);
     std::vector<Point<ViewFrame>> points;
     for (int i = 0; i < kSamples; ++i) {
         const double along = reach * (2.0 * i / (kSamples - 1) - 1.0);
         const Point<ViewFrame> point{profile.at.x + along * profile.nx, profile.at.y + along * profile.ny};
         if (!regions.inside(static_cast<int>(std::floor(point.x)), static_cast<int>(std::floor(point.y)))) continue;
         points.push_back({point.x - patch.window.x0, point.y - patch.window.y0});
-        profile.millimetres.push_back(static_cast<float>(along / pixels * 1e3));
+        profile.millimetres.push_back(static_cast<float>(millimetres(along)));
     }
-    const auto along = [&](const Block& image, double& worst) {
+    const auto across = [&](Eye eye, const std::vector<Light>& lights, double& worst) {
+        const Block image = seen(compiled, patch, border.distance, eye, lights);
         std::vector<float> values;
         for (const auto& point : points) {
             values.push_back(sampled(image, point.x, point.y));
@@ -295,8 +215,8 @@ std::optional<SeamProfile> seamProfile(const Compiled& compiled, Point<CameraFra
     };
     for (const Eye eye : {Eye::left, Eye::right}) {
         EyeProfile& one = eye == Eye::left ? profile.left : profile.right;
-        one.before = along(seen(eye, patch.before), one.worstWeberBefore);
-        one.after = along(seen(eye, patch.after), one.worstWeberAfter);
+        one.before = across(eye, patch.before, one.worstWeberBefore);
+        one.after = across(eye, patch.after, one.worstWeberAfter);
     }
     return profile;
 }

@@ -92,3 +92,17 @@ TEST_CASE("seam profile: none in a scene that has no sweep") {
     compiled.program = p.program;
     CHECK_FALSE(seamProfile(compiled, {300.0, 150.0}, 50.0));
 }
+
+TEST_CASE("seam profile: the closed form leaves nothing of the seam, the paper's ramps much of it") {
+    Document d = leftStrip(600).document;
+    const auto worstWith = [&](Blending blending) {
+        d.seam.blending = blending;
+        const auto compiled = compile(d, *plan(planInput(d)));
+        REQUIRE(compiled);
+        return seamProfile(*compiled, {600.0, 150.0}, 10.0)->left.worstWeberAfter;
+    };
+    CHECK(worstWith(Blending::closedForm) < 0.01);
+    CHECK(worstWith(Blending::linearPerceived) > 0.03);
+    CHECK(worstWith(Blending::linearObject) > 0.5);
+    CHECK(worstWith(Blending::none) > 0.8);
+}
