@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "devices/camera/video_file.h"
 #include "projects/pictures.h"
 
 namespace ilf::app {
@@ -16,6 +17,18 @@ bool startsLikeArchive(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     char start[2] = {};
     return file.read(start, 2) && start[0] == 'P' && start[1] == 'K';
+}
+
+/// AVI, MP4 and MOV, Matroska and WebM, MPEG and Ogg by their first bytes. Pictures never start like this, so that a
+/// truncated picture is not mistaken for a very short video.
+bool startsLikeVideo(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string start(12, '\0');
+    file.read(start.data(), 12);
+    const auto has = [&](std::size_t at, std::string_view text) { return start.compare(at, text.size(), text) == 0; };
+    return (has(0, "RIFF") && has(8, "AVI ")) || has(4, "ftyp") || has(4, "moov") || has(4, "mdat") || has(0, "OggS") ||
+           has(0, "\x1A\x45\xDF\xA3") || has(0, std::string_view("\0\0\1\xBA", 4)) ||
+           has(0, std::string_view("\0\0\1\xB3", 4));
 }
 
 Scene sceneOf(Picture picture, const fs::path& path, std::optional<double> focal) {
@@ -38,7 +51,14 @@ Result<OpenedScene> openScene(const std::string& path, const projects::ProjectEx
         opened.scene = sceneOf(std::move(picture->picture), path, picture->focalPixels);
         return opened;
     }
-    return tl::unexpected(picture.error());
+    if (!startsLikeVideo(path)) return tl::unexpected(picture.error());
+    auto frame = devices::firstFrame(path);
+    if (!frame) return tl::unexpected(frame.error());
+    OpenedScene opened;
+    opened.extras = extras;
+    opened.videoPath = path;
+    opened.scene = sceneOf(*std::move(frame), path, std::nullopt);
+    return opened;
 }
 
 Result<OpenedFile> openAny(const std::string& path) {

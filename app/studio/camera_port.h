@@ -1,33 +1,55 @@
-// The studio's camera: a live device or a video file, its newest frame, and whether it still moves.
+// The studio's camera: a live device or a video file, its newest frame, and whether it goes on beneath the regions.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "core/base/image.h"
 #include "core/document/document.h"
+#include "devices/camera/camera.h"
 #include "ui/view.h"
 
 namespace ilf::app {
 
+/// Main thread only; the device is the camera's own thread's.
 class CameraPort {
 public:
-    explicit CameraPort(std::function<void()>) {}
-    void close() {}
-    bool streaming() const { return false; }
-    bool live() const { return false; }
-    bool collect() { return false; }
-    Image<std::uint8_t> frame() const { return {}; }
-    std::vector<std::string> takeSentences() { return {}; }
-    Result<void> toggleLock() { return {}; }
-    void toggleLive() {}
-    Result<void> openVideo(const std::string&) { return {}; }
-    Result<void> openLive(const std::string&) { return fail(Fault::device, "none"); }
-    void seek(double) {}
-    Result<Scene> grabbed() { return fail(Fault::device, "none"); }
-    ui::CameraStatus status() const { return {}; }
-    std::vector<std::string> ids() const { return {}; }
+    explicit CameraPort(std::function<void()> onNews) : onNews_(std::move(onNews)) {}
+
+    /// Opens a camera by its stable id; an empty id takes the first one found (the simulated camera is always there).
+    void openLive(const std::string& id);
+    void openVideo(const std::string& path);
+    void close();
+
+    /// Takes what came since the last call; true if there is a new frame.
+    bool collect();
+    const devices::Frame& frame() const { return *frame_; }
+    /// The newest frame as a scene, for "grab"; refused when there is none or the camera is frozen.
+    Result<Scene> grabbed() const;
+
+    Result<void> toggleLock();
+    void toggleLive() { live_ = !live_ && camera_; }
+    bool live() const { return live_; }
+    bool streaming() const { return camera_ && live_; }
+    void seek(double position);
+
+    /// What went wrong since the last call, each once.
+    std::vector<std::string> takeSentences();
+    ui::CameraStatus status() const;
+    /// Ids of the cameras plugged in; looked for again when a camera is opened or closed.
+    const std::vector<std::string>& ids() const { return ids_; }
+
+private:
+    void open(devices::Camera::Open source);
+    void lookAround();
+
+    std::function<void()> onNews_;
+    std::unique_ptr<devices::Camera> camera_;
+    std::optional<devices::Frame> frame_;
+    bool live_ = false, video_ = false;
+    std::string saidTrouble_;
+    std::vector<std::string> ids_;
 };
 
 }  // namespace ilf::app

@@ -100,7 +100,9 @@ int Studio::run() {
         if ((window_->shouldClose() || closing_) && mayClose()) return kDone;
         if (!options_.screenshot.empty() && done_.viewsDone && done_.serial == editor_.serial() &&
             quietFrames_ >= kSettlingFrames && now_s() > 1.0) {
-            const auto written = projects::writePng(options_.screenshot, window_->pixels());
+            window_->captureNext();
+            frame();
+            const auto written = projects::writePng(options_.screenshot, window_->captured());
             if (!written) std::cerr << "illuminatedfocus: " << written.error().what << '\n';
             return written ? kDone : kFailed;
         }
@@ -176,15 +178,16 @@ void Studio::takeNews(LinkNews news) {
     core_ = std::move(news.status);
     if (playAtStart_ && core_.connected) {
         playAtStart_ = false;
-        // A project opens playing on simulated devices. What plays already is left alone: a restarted studio shows it.
-        if (core_.simulated && core_.light == devices::LightMode::steady && core_.hold == 0) take();
+        // A project opens playing on a simulated core that has never played. What plays already is left alone (a
+        // restarted studio shows it), and so is safe light after a fault or after the operator asked for it.
+        if (core_.simulated && core_.swaps == 0 && core_.faults == 0 && core_.fault.empty()) take();
     }
     if (news.trouble != linkTrouble_ && !news.trouble.empty()) say(news.trouble, ui::Tone::error);
     linkTrouble_ = std::move(news.trouble);
 }
 
 void Studio::takeFrame() {
-    if (camera_.live()) pictures_.showLive(camera_.frame());
+    if (camera_.live()) pictures_.showLive(camera_.frame().rgb);
 }
 
 void Studio::postJob() {

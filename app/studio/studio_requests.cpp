@@ -96,6 +96,7 @@ void Studio::on(const ui::OpenFile& request) {
         if (!opened) return say(opened.error().what, ui::Tone::error);
         keeper_.setExtras(opened->extras);
         if (!opened->note.empty()) say(opened->note, ui::Tone::note);
+        if (!opened->videoPath.empty()) camera_.openVideo(opened->videoPath);
         return setScene(std::move(opened->scene));
     }
     auto opened = openAny(request.path);
@@ -113,9 +114,7 @@ void Studio::show(OpenedFile opened) {
     ui_.selected.clear();
     ui_.fitted = true;
     if (!opened.note.empty()) say(opened.note, ui::Tone::note);
-    if (!opened.videoPath.empty()) {
-        if (const auto open = camera_.openVideo(opened.videoPath); !open) say(open.error().what, ui::Tone::warning);
-    }
+    if (!opened.videoPath.empty()) camera_.openVideo(opened.videoPath);
 }
 
 void Studio::setScene(Scene scene) {
@@ -164,7 +163,7 @@ void Studio::on(const ui::ExportView& request) {
 }
 
 void Studio::on(const ui::OpenCamera& request) {
-    if (const auto opened = camera_.openLive(request.id); !opened) say(opened.error().what, ui::Tone::error);
+    camera_.openLive(request.id);
 }
 
 void Studio::on(const ui::SeekVideo& request) { camera_.seek(request.position); }

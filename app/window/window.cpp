@@ -136,24 +136,22 @@ double Window::endFrame() {
     glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    if (std::exchange(capture_, false)) capture(width, height);  // before the swap: the back buffer is lost with it
     const auto start = std::chrono::steady_clock::now();
     glfwSwapBuffers(window_);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Image<std::uint8_t> Window::pixels() const {
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(window_, &width, &height);
+void Window::capture(int width, int height) {
     const auto stride = static_cast<std::size_t>(width) * 3;
     std::vector<std::uint8_t> upsideDown(stride * static_cast<std::size_t>(height)), rgb(upsideDown.size());
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadBuffer(GL_FRONT);
     glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upsideDown.data());
     for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
         const auto* from = &upsideDown[(static_cast<std::size_t>(height) - 1 - y) * stride];
         std::copy(from, from + stride, &rgb[y * stride]);
     }
-    return Image<std::uint8_t>({width, height}, 3, std::move(rgb));
+    captured_ = Image<std::uint8_t>({width, height}, 3, std::move(rgb));
 }
 
 ui::Input Window::takeInput() {

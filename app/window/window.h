@@ -39,8 +39,9 @@ public:
     void beginFrame();
     /// Draws what was built and shows it; the seconds it took, the driver's swap included.
     double endFrame();
-    /// What the window shows now, RGB; for `--screenshot`.
-    Image<std::uint8_t> pixels() const;
+    /// The next frame is also kept as a picture, RGB; for `--screenshot`.
+    void captureNext() { capture_ = true; }
+    const Image<std::uint8_t>& captured() const { return captured_; }
 
     /// What happened since the last call.
     ui::Input takeInput();
@@ -49,6 +50,7 @@ public:
 private:
     Window() = default;
     void installCallbacks();
+    void capture(int width, int height);
 
     GLFWwindow* window_ = nullptr;
     double scale_ = 1.0;
@@ -56,6 +58,8 @@ private:
     std::vector<std::string> dropped_;
     PixelRect<WidgetFrame> windowed_;
     bool backends_ = false;
+    bool capture_ = false;
+    Image<std::uint8_t> captured_;
 };
 
 }  // namespace ilf::app
