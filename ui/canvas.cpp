@@ -183,7 +183,8 @@ void drawPictures(Panel& p, const Viewport& viewport, ImDrawList& draw) {
         break;
     }
     }
-    const bool pictureOnly = state.mode == ViewMode::perceived || state.mode == ViewMode::compare;
+    // Perceived views and light are looked at for their own pixels; while painting, the marks come back.
+    const bool pictureOnly = state.mode != ViewMode::scene;
     const bool painting = state.gesture.kind == CanvasGesture::Kind::paint;
     if (!state.overlayHidden && (!pictureOnly || painting)) drawOver(viewport, draw, view.overlay, size);
     if (view.busySelecting)

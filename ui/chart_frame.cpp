@@ -23,8 +23,8 @@ ChartFrame chartFrame(Panel& p, const Rect& area, const char* title, const std::
     ImFont* small = font(Font::small);
     const double line = static_cast<double>(small->FontSize);
     ChartFrame frame;
-    frame.plot = {area.x + 40 * p.scale, area.y + line + 20 * p.scale, area.w - 56 * p.scale,
-                  area.h - 2 * line - 34 * p.scale};
+    frame.plot = {area.x + 40 * p.scale, area.y + line + 18 * p.scale, area.w - 56 * p.scale,
+                  area.h - 2 * line - 32 * p.scale};
     frame.x = x;
     frame.y = y;
     frame.logX = logX;
@@ -38,10 +38,14 @@ ChartFrame chartFrame(Panel& p, const Rect& area, const char* title, const std::
         const double left = right ? px - static_cast<double>(size.x) : px - static_cast<double>(size.x) / 2;
         draw.AddText(small, small->FontSize, vec(left, py), rgb(0x66707E), words.c_str());
     };
-    for (const double value : ticks(y, static_cast<int>(frame.plot.h / (24 * p.scale)))) {
+    const std::vector<double> rows = ticks(y, static_cast<int>(frame.plot.h / (24 * p.scale)));
+    for (const double value : rows) {
         const ImVec2 at = frame.at(x.low, value);
         draw.AddLine(at, {static_cast<float>(frame.plot.right()), at.y}, rgb(0x232931));
-        label(static_cast<double>(at.x) - 6 * p.scale, static_cast<double>(at.y) - line / 2, tickText(value), true);
+        // The highest mark carries the unit.
+        const std::string words =
+            tickText(value) + (value == rows.back() && *yUnit != 0 ? std::string(" ") + yUnit : "");
+        label(static_cast<double>(at.x) - 6 * p.scale, static_cast<double>(at.y) - line / 2, words, true);
     }
     const double below = frame.plot.bottom() + 4 * p.scale;
     std::vector<double> marks;
@@ -60,8 +64,6 @@ ChartFrame chartFrame(Panel& p, const Rect& area, const char* title, const std::
             label(static_cast<double>(at.x), below, tickText(value), false);
     }
     label(frame.plot.right() + 4 * p.scale, below, xUnit, true);
-    draw.AddText(small, small->FontSize, vec(frame.plot.x + 5 * p.scale, frame.plot.y + 2 * p.scale), rgb(0x66707E),
-                 yUnit);
     draw.AddRect(vec(frame.plot.x, frame.plot.y), vec(frame.plot.right(), frame.plot.bottom()), rgb(0x2C333D));
     return frame;
 }

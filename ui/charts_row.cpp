@@ -29,7 +29,8 @@ void drawSweep(Panel& p, const Plan& plan) {
                                         : "lens at rest, " + formatted(plan.waveform.low);
     summary += ", light " + formatted(plan.light, Unit::percent);
     if (p.view.core.simulated) summary += ", simulated lens";
-    const ChartFrame frame = chartFrame(p, p.at.sweep, "SWEEP", summary, chart.time_ms, chart.power_D, "ms", "D");
+    const ChartFrame frame =
+        chartFrame(p, p.at.sweep, "SWEEP  lens power", summary, chart.time_ms, chart.power_D, "ms", "D");
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const auto bottom = static_cast<float>(frame.plot.bottom());
     for (const auto& bar : chart.bars) {
@@ -93,8 +94,8 @@ void drawBlurRange(Panel& p, const Plan& plan) {
         summary = std::string(hasIcons() ? icon::star : "*") + " " + (driver != nullptr ? driver->name : "") +
                   " drives, P_s " + formatted(*plan.pS);
     }
-    const ChartFrame frame =
-        chartFrame(p, p.at.blurRange, "BLUR RANGE", summary, chart.distance_m, chart.power_D, "m", "D", true);
+    const ChartFrame frame = chartFrame(p, p.at.blurRange, "BLUR RANGE  power by distance", summary, chart.distance_m,
+                                        chart.power_D, "m", "D", true);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.PushClipRect(vec(frame.plot.x, frame.plot.y), vec(frame.plot.right(), frame.plot.bottom()), true);
     const auto top = static_cast<float>(frame.plot.y), bottom = static_cast<float>(frame.plot.bottom());
@@ -132,9 +133,12 @@ void drawBlurRange(Panel& p, const Plan& plan) {
         ImGui::PopID();
         draw.AddCircleFilled(at, radius, object.look == Look::focus ? colour::panel : ink);
         draw.AddCircle(at, radius, ink, 0, p.px(1.8));
-        if (object.drives)
-            draw.AddText({at.x - ImGui::GetFontSize() * 0.45f, at.y - p.px(8) - ImGui::GetFontSize()}, ink,
-                         hasIcons() ? icon::star : "*");
+        if (object.drives) {
+            // Over the point, or under it where the plot ends.
+            const float above = at.y - p.px(8) - ImGui::GetFontSize();
+            const float place = above > static_cast<float>(frame.plot.y) ? above : at.y + p.px(8);
+            draw.AddText({at.x - ImGui::GetFontSize() * 0.45f, place}, ink, hasIcons() ? icon::star : "*");
+        }
         if (!hovered && !held) continue;
         under = object.name + "   " + formatted(object.nearest_m, Unit::metre) + "   lit at " +
                 formatted(object.power_D, Unit::dioptre);
@@ -153,13 +157,15 @@ void drawBlurRange(Panel& p, const Plan& plan) {
 void drawSeam(Panel& p) {
     const auto& profile = p.view.computed.seam;
     if (!profile) {
-        chartFrame(p, p.at.seam, "SEAM", "no border near the cursor", {-20, 20}, {0.5, 1.5}, "mm", "light");
+        chartFrame(p, p.at.seam, "SEAM  light across the border", "no border near the cursor", {-20, 20}, {0.5, 1.5},
+                   "mm", "");
         return;
     }
     const SeamChart chart = seamChart(*profile);
     const std::string summary = "worst " + formatted(chart.worstBefore, Unit::percent) + " \u2192 " +
                                 formatted(chart.worstAfter, Unit::percent);
-    const ChartFrame frame = chartFrame(p, p.at.seam, "SEAM", summary, chart.across_mm, chart.light, "mm", "light");
+    const ChartFrame frame =
+        chartFrame(p, p.at.seam, "SEAM  light across the border", summary, chart.across_mm, chart.light, "mm", "");
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 one = frame.at(chart.across_mm.low, 1.0);
     draw.AddLine(one, {static_cast<float>(frame.plot.right()), one.y}, rgb(0xC9D1DB, 50));

@@ -117,6 +117,9 @@ constexpr auto table = std::to_array<CommandInfo>({
      "Hide everything but the picture, or bring it back."},
     {C::fullScreen, "view.fullScreen", "Full screen", "View", plain(f(11)), none, "The window over the whole screen."},
 
+    {C::resetLayout, "view.resetLayout", "Reset layout", "View", none, none,
+     "Panels as they were at first; hints are shown again."},
+
     {C::take, "show.take", "TAKE", "Show", ctrl(keys::enter), none, "Put what is painted on show."},
     {C::liveTake, "show.live", "Live", "Show", ctrl('L'), none, "Put every change on show while painting."},
     {C::safeLight, "show.safeLight", "SAFE LIGHT", "Show", plain(f(12)), none,

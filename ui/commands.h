@@ -65,6 +65,7 @@ enum class Command {
     zoomOut,
     hidePanels,
     fullScreen,
+    resetLayout,
     grab,
     openCamera,
     closeCamera,

@@ -48,7 +48,7 @@ Layout layout(Size window, double scale, const PanelSizes& sizes) {
     at.regions = {sideLeft, at.top.bottom(), side, listHeight};
     const double rest = column - listHeight;
     const bool own = column >= px(kRoomForSelected);
-    const double selected = own ? std::round(rest * 0.54) : 0.0;
+    const double selected = own ? std::round(rest * 0.58) : 0.0;
     at.selected = own ? Rect{sideLeft, at.regions.bottom(), side, selected} : Rect{};
     at.pages = {sideLeft, at.regions.bottom() + selected, side, rest - selected};
 

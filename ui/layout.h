@@ -19,7 +19,7 @@ struct Rect {
 struct PanelSizes {
     double side = 324;      ///< width of the panels on the right
     double charts = 190;    ///< height of the charts
-    double regions = 0.36;  ///< share of the side column given to the list
+    double regions = 0.34;  ///< share of the side column given to the list
     bool hidden = false;    ///< only the picture (Tab)
     bool operator==(const PanelSizes&) const = default;
 };

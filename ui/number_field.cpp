@@ -17,8 +17,11 @@ std::optional<FieldChange> typed(Panel& p, unsigned id, const char* name, double
     FieldState& field = p.state.field;
     ImGui::SetNextItemWidth(width);
     if (field.justOpened) ImGui::SetKeyboardFocusHere();
+    // An id of its own: the button it replaces may still be held down by the key that opened it.
+    ImGui::PushID("typed");
     const bool entered =
         ImGui::InputText(name, &field.text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    ImGui::PopID();
     const bool left = ImGui::IsItemDeactivated();
     // The focus asked for arrives a frame later.
     const bool waiting = std::exchange(field.justOpened, false);

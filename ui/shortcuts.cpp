@@ -352,6 +352,11 @@ void run(Command command, const View& view, State& state, Requests& requests) {
     case Command::hidePanels:
         state.panels.hidden = !state.panels.hidden;
         return;
+    case Command::resetLayout:
+        state.panels = {};
+        state.page = Page::selected;
+        state.hintsUsed.clear();
+        return;
     case Command::shortcuts:
         state.shortcutsOpen = !state.shortcutsOpen;
         return;

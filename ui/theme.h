@@ -21,7 +21,7 @@ constexpr ImU32 faded(ImU32 colour, double alpha) {
 /// A little darker than a desktop would be: the window's light spoils the effect in the room (under 3 cd/m2 on
 /// average). Text on ground has a contrast of 11:1, dim text 5:1 (used for units and axes only).
 namespace colour {
-inline constexpr ImU32 ground = rgb(0x0D1013), panel = rgb(0x12161B), raised = rgb(0x1B2027), line = rgb(0x252B34),
+inline constexpr ImU32 ground = rgb(0x0B0E11), panel = rgb(0x101419), raised = rgb(0x1B2027), line = rgb(0x252B34),
                        text = rgb(0xC9D1DB), dim = rgb(0x7C8796), focus = rgb(0x4FA3FF), blur = rgb(0xFF9F45),
                        neutral = rgb(0xA5AFBD), good = rgb(0x58C48A), warn = rgb(0xE8C24A), fault = rgb(0xFF5D6C),
                        safe = rgb(0xFFFFFF), safeGround = rgb(0x2A2F38), derived = rgb(0xA9B7C8);

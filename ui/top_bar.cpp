@@ -149,6 +149,12 @@ void showButtons(Panel& p, float right) {
     float x = right - safeWidth;
     ImGui::SetCursorPos({x, top});
     const bool steady = view.core.connected && view.core.light == Light::steady;
+    // A dialog keeps the pointer from everything but itself; never from safe light.
+    const ImVec2 corner = ImGui::GetCursorScreenPos(), mouse = ImGui::GetMousePos();
+    const bool throughDialog = p.state.popupsOpen && ImGui::IsMouseClicked(ImGuiMouseButton_Left) &&
+                               mouse.x >= corner.x && mouse.x < corner.x + safeWidth && mouse.y >= corner.y &&
+                               mouse.y < corner.y + p.px(kLiveTarget);
+    if (throughDialog) p.run(Command::safeLight);
     if (bigButton(p, "###safeLight", "SAFE LIGHT", safeWidth, steady ? colour::safe : colour::safeGround,
                   steady ? colour::ground : colour::safe, steady ? colour::safe : rgb(0x596373), "", true)) {
         p.run(Command::safeLight);

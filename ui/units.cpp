@@ -128,22 +128,22 @@ std::string formatted(double si, Unit unit) {
         if (size >= 0.09995) return decimals(si, 3, " m");
         if (size == 0.0) return "0 m";
         if (size >= 1e-3) return decimals(si * 1e3, 1, " mm");
-        return decimals(si * 1e6, 1, " um");
+        return decimals(si * 1e6, 1, " \u00b5m");
     case Unit::millimetre:
-        if (size != 0.0 && size < 1e-3) return decimals(si * 1e6, 1, " um");
+        if (size != 0.0 && size < 1e-3) return decimals(si * 1e6, 1, " \u00b5m");
         return decimals(si * 1e3, size < 0.1 ? 2 : 1, " mm");
     case Unit::dioptre:
         return decimals(si, 2, " D");
     case Unit::degree:
         return decimals(si, 1, "\u00b0");
     case Unit::hertz:
-        return decimals(si, size == std::floor(size) ? 0 : 1, " Hz");
+        return decimals(si, std::abs(size - std::round(size)) < 0.05 ? 0 : 1, " Hz");
     case Unit::millisecond:
         return decimals(si * 1e3, 2, " ms");
     case Unit::year:
         return decimals(si, 0, " years");
     case Unit::pixel:
-        return decimals(si, size < 10.0 ? 1 : 0, " px");
+        return decimals(si, size < 9.95 ? 1 : 0, " px");
     case Unit::percent:
         return decimals(si * 1e2, 0, " %");
     case Unit::number:
