@@ -14,8 +14,7 @@ namespace {
 struct SheetNear {
     Patch<std::uint8_t> weight;
     std::vector<BorderPiece> pieces;
-    Patch<float> squared;         ///< distance to pieces without a step
-    Patch<float> signedDistance;  ///< positive inside
+    Patch<float> signedDistance;  ///< to pieces without a step, positive inside
 };
 
 /// The softer of ramp and brush: the ramp where the mask is harder, the brush's own slope where that is gentler.
@@ -56,16 +55,14 @@ SheetNear sheetNear(const Visible& visible, int sheet, const TilePart& part) {
     const int around = static_cast<int>(std::ceil(maySteps ? std::max(reach, stepReach(light)) : reach)) + 1;
     near.weight = gathered(visible.weights[static_cast<std::size_t>(sheet)], wholeSquares(at.grown(around)));
     near.pieces = borderPieces(visible, sheet, near.weight);
-    near.squared = Patch<float>(at, reach * reach);
-    lowerToDistance(near.pieces, false, reach, near.squared);
-    near.signedDistance = Patch<float>(at);
+    near.signedDistance = Patch<float>(at, reach * reach);
+    lowerToDistance(near.pieces, false, reach, near.signedDistance);
     for (int y = at.y0; y < at.y1; ++y) {
         const std::uint8_t* weight = near.weight.row(y) + (at.x0 - near.weight.at.x0);
-        const float* squared = near.squared.row(y);
-        float* to = near.signedDistance.row(y);
+        float* distance = near.signedDistance.row(y);
         for (int x = 0; x < at.width(); ++x) {
-            const float d = std::sqrt(squared[x]);
-            to[x] = weight[x] > 127 ? d : -d;
+            const float d = distance[x] < reach * reach ? std::sqrt(distance[x]) : reach;
+            distance[x] = weight[x] > 127 ? d : -d;
         }
     }
     return near;
@@ -74,7 +71,7 @@ SheetNear sheetNear(const Visible& visible, int sheet, const TilePart& part) {
 /// Pixels whose nearest border is a depth step and not too far to matter.
 Tile besideSteps(const Lighting& light, const std::vector<SheetNear>& sheets, const TilePart& part,
                  const Tile& before) {
-    const float reach = stepReach(light), soft2 = light.distanceReach * light.distanceReach;
+    const float reach = stepReach(light);
     Patch<float> toStep(part.pixels, reach * reach);
     for (const SheetNear& sheet : sheets)
         lowerToDistance(sheet.pieces, true, reach, toStep);
@@ -84,8 +81,8 @@ Tile besideSteps(const Lighting& light, const std::vector<SheetNear>& sheets, co
             const float step = toStep(x, y);
             bool nearest = step < reach * reach;
             for (const SheetNear& sheet : sheets) {
-                const float soft = sheet.squared(x, y);
-                nearest = nearest && (soft >= soft2 || step <= soft);
+                const float soft = std::abs(sheet.signedDistance(x, y));
+                nearest = nearest && (soft >= light.distanceReach || step <= soft * soft);
             }
             hard.at(x % kTile, y % kTile) = nearest ? 255 : 0;
         }
@@ -129,8 +126,9 @@ void lightClosed(const Lighting& light, const Layer& layer, const SheetNear& she
                 std::fill(to, to + kSquare, toByte(full * *flat));
                 continue;
             }
+            const ShiftField::Row shifts = toPainted.row(y);
             for (int x = 0; x < kSquare; ++x) {
-                const Shift shift = toPainted.at(square.x0 + x, y);
+                const Shift shift = shifts.at(square.x0 + x);
                 to[x] = toByte(full * m.sampled(square.x0 + x, y, shift.x, shift.y));
             }
         }

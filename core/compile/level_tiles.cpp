@@ -60,11 +60,12 @@ void addBlurred(const Lighting& light, const LayerGrids& layers, std::size_t ind
         const PixelRect<ProjectorFrame>& at = square.pixels;
         for (int y = at.y0; y < at.y1; ++y) {
             float* to = &seen[pixelOf(at.x0, y)];
+            const ShiftField::Row shifts = toLit.row(y);
             for (int x = 0; x < kSquare; ++x) {
                 if (square.flat) {
                     to[x] += per * static_cast<float>(*square.flat);
                 } else {
-                    const Shift shift = toLit.at(at.x0 + x, y);
+                    const Shift shift = shifts.at(at.x0 + x);
                     to[x] += per * blurred.sampled(at.x0 + x, y, shift.x, shift.y);
                 }
             }
@@ -72,14 +73,26 @@ void addBlurred(const Lighting& light, const LayerGrids& layers, std::size_t ind
     }
 }
 
-/// Calls `visit(pixel index)` for the pixels of a part.
-template <class Visit>
-void forEachPixel(const TilePart& part, Visit&& visit) {
-    for (int y = part.pixels.y0; y < part.pixels.y1; ++y) {
-        const std::size_t from = pixelOf(part.pixels.x0, y);
-        for (std::size_t i = from; i < from + static_cast<std::size_t>(part.pixels.width()); ++i)
-            visit(i);
-    }
+/// Calls `work(first pixel index, count)` for each row of a part. The loops inside keep their own pointers: through
+/// captured arrays a byte written could be any other byte, and nothing would be done four at a time.
+template <class Work>
+void forEachRow(const TilePart& part, Work&& work) {
+    for (int y = part.pixels.y0; y < part.pixels.y1; ++y)
+        work(pixelOf(part.pixels.x0, y), part.pixels.width());
+}
+
+void fillWith(float value, const TilePart& part, Plane& plane) {
+    forEachRow(part, [&](std::size_t from, int n) { std::fill_n(&plane[from], n, value); });
+}
+
+/// plane += factor * bytes.
+void addBytes(const Tile& bytes, float factor, const TilePart& part, Plane& plane) {
+    forEachRow(part, [&](std::size_t from, int n) {
+        float* to = &plane[from];
+        const std::uint8_t* v = &bytes.v[from];
+        for (int x = 0; x < n; ++x)
+            to[x] += factor * static_cast<float>(v[x]);
+    });
 }
 
 /// One tile in the making, or one pixel standing for all of it.
@@ -88,12 +101,13 @@ public:
     explicit LevelMixer(const Lighting& light) : light_(light) {
         const double weakest = *std::ranges::min_element(light.weights);
         slack_ = static_cast<float>(0.51 / (255.0 * std::max(weakest, 1e-3)));
+        fullBase_ = 255.0F * static_cast<float>(light.weights[static_cast<std::size_t>(light.base)]);
     }
     /// The base level's image where layers give `seen`. What is missing by rounding alone stays missing: sharp light at
     /// one step of 255 would show on all blur.
     float base(float seen) const {
         const float missing = 1.0F - seen;
-        return missing > slack_ ? 255.0F * static_cast<float>(light_.weights[base_()]) * missing : 0.0F;
+        return missing > slack_ ? fullBase_ * missing : 0.0F;
     }
     /// Blurs of different width overlap by more than all light here and there; all of them give way alike.
     bool tooMuch(float seen) const { return seen > 1.0F + 2.0F * slack_; }
@@ -104,9 +118,8 @@ public:
     }
 
 private:
-    std::size_t base_() const { return static_cast<std::size_t>(light_.base); }
     const Lighting& light_;
-    float slack_ = 0.0F;
+    float slack_ = 0.0F, fullBase_ = 0.0F;
 };
 
 std::uint8_t toByte(float v) { return static_cast<std::uint8_t>(static_cast<int>(std::min(255.0F, v + 0.5F))); }
@@ -151,52 +164,70 @@ LevelTiles levelTiles(const Lighting& light, const LayerGrids& layers, const Til
 
     // What an eye sees of all layers, pixel by pixel.
     Plane seen;
-    forEachPixel(part, [&](std::size_t i) { seen[i] = 0.0F; });
+    fillWith(0.0F, part, seen);
     for (std::size_t l = 0; l < light.layers.size(); ++l) {
         const Layer& layer = light.layers[l];
         if (even[l]) {
-            if (*even[l] != 0.0F) forEachPixel(part, [&](std::size_t i) { seen[i] += *even[l]; });
+            const float value = *even[l];
+            if (value == 0.0F) continue;
+            forEachRow(part, [&](std::size_t from, int n) {
+                float* to = &seen[from];
+                for (int x = 0; x < n; ++x)
+                    to[x] += value;
+            });
         } else if (light.blending == Blending::closedForm) {
             addBlurred(light, layers, l, part, seen);
         } else {
             const bool none = light.blending == Blending::none;
-            const Tile& from = *(none ? layers.lit : layers.seen)[l].tile(part.column, part.row);
-            const float per = none ? perStep(light, layer) : static_cast<float>(layer.share) / 255.0F;
-            forEachPixel(part, [&](std::size_t i) { seen[i] += per * static_cast<float>(from.v[i]); });
+            addBytes(*(none ? layers.lit : layers.seen)[l].tile(part.column, part.row),
+                     none ? perStep(light, layer) : static_cast<float>(layer.share) / 255.0F, part, seen);
         }
     }
     // Beside a depth step light counts where it is lit, neither moved nor blurred.
     const Box<Tile>& hard = layers.hard.tile(part.column, part.row);
     if (!hard.same(uniformTile(0))) {
-        forEachPixel(part, [&](std::size_t i) {
-            if (hard->v[i] == 0) return;
-            seen[i] = 0.0F;
-            for (std::size_t l = 0; l < light.layers.size(); ++l)
-                seen[i] += perStep(light, light.layers[l]) *
-                           static_cast<float>(layers.lit[l].tile(part.column, part.row)->v[i]);
+        Plane lit;
+        fillWith(0.0F, part, lit);
+        for (std::size_t l = 0; l < light.layers.size(); ++l)
+            addBytes(*layers.lit[l].tile(part.column, part.row), perStep(light, light.layers[l]), part, lit);
+        forEachRow(part, [&](std::size_t from, int n) {
+            for (std::size_t i = from; i < from + static_cast<std::size_t>(n); ++i)
+                seen[i] = hard->v[i] != 0 ? lit[i] : seen[i];
         });
     }
 
     const LevelMixer mixer(light);
     bool anyTooMuch = false;
-    forEachPixel(part, [&](std::size_t i) { anyTooMuch |= mixer.tooMuch(seen[i]); });
+    forEachRow(part, [&](std::size_t from, int n) {
+        const float most = *std::max_element(&seen[from], &seen[from] + n);
+        anyTooMuch = anyTooMuch || mixer.tooMuch(most);
+    });
     LevelTiles tiles;
     for (std::size_t level = 0; level < light.weights.size(); ++level) {
         Plane image;
-        forEachPixel(part, [&](std::size_t i) { image[i] = 0.0F; });
+        fillWith(0.0F, part, image);
         for (std::size_t l = 0; l < light.layers.size(); ++l) {
             const Box<Tile>& lit = layers.lit[l].tile(part.column, part.row);
-            if (light.layers[l].level != static_cast<int>(level) || lit.same(uniformTile(0))) continue;
-            forEachPixel(part, [&](std::size_t i) { image[i] += static_cast<float>(lit->v[i]); });
+            if (light.layers[l].level == static_cast<int>(level) && !lit.same(uniformTile(0)))
+                addBytes(*lit, 1.0F, part, image);
         }
-        if (static_cast<int>(level) == light.base) {
-            forEachPixel(part, [&](std::size_t i) { image[i] = mixer.base(seen[i]); });
-        } else if (anyTooMuch) {
-            forEachPixel(part,
-                         [&](std::size_t i) { image[i] = mixer.tooMuch(seen[i]) ? image[i] / seen[i] : image[i]; });
-        }
+        const bool isBase = static_cast<int>(level) == light.base;
         Tile tile = *imagesBefore[level].tile(part.column, part.row);
-        forEachPixel(part, [&](std::size_t i) { tile.v[i] = toByte(image[i]); });
+        forEachRow(part, [&](std::size_t from, int n) {
+            const LevelMixer mix = mixer;
+            float* v = &image[from];
+            const float* s = &seen[from];
+            std::uint8_t* to = &tile.v[from];
+            if (isBase) {
+                for (int x = 0; x < n; ++x)
+                    v[x] = mix.base(s[x]);
+            } else if (anyTooMuch) {
+                for (int x = 0; x < n; ++x)
+                    v[x] = mix.tooMuch(s[x]) ? v[x] / s[x] : v[x];
+            }
+            for (int x = 0; x < n; ++x)
+                to[x] = toByte(v[x]);
+        });
         tiles.images.push_back(boxed(tile));
         if (light.weights[level] == 1.0) {
             tiles.weights.push_back(tiles.images.back());

@@ -72,12 +72,12 @@ struct Patch {
     /// The one value of every pixel of `rect`, which must lie inside, or nothing.
     std::optional<T> flatOver(PixelRect<ProjectorFrame> rect) const {
         const T value = (*this)(rect.x0, rect.y0);
-        for (int y = rect.y0; y < rect.y1; ++y) {
-            const T* line = row(y) + (rect.x0 - at.x0);
-            bool differs = false;
-            for (int x = 0; x < rect.width(); ++x)
-                differs |= line[x] != value;
-            if (differs) return std::nullopt;
+        const std::size_t bytes = static_cast<std::size_t>(rect.width()) * sizeof(T);
+        const T* first = row(rect.y0) + (rect.x0 - at.x0);
+        // Equal to itself one further on: all equal. Bytes are compared, so that -0 and 0 differ, which costs nothing.
+        if (std::memcmp(first, first + 1, bytes - sizeof(T)) != 0) return std::nullopt;
+        for (int y = rect.y0 + 1; y < rect.y1; ++y) {
+            if (std::memcmp(first, row(y) + (rect.x0 - at.x0), bytes) != 0) return std::nullopt;
         }
         return value;
     }

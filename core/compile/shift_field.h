@@ -19,12 +19,26 @@ public:
           b_(light.node(layer, column + 1, row).*which), c_(light.node(layer, column, row + 1).*which),
           d_(light.node(layer, column + 1, row + 1).*which) {}
 
-    /// At the centre of a pixel of the raster.
-    Shift at(int x, int y) const {
-        const float u = (static_cast<float>(x - column_ * kTile) + 0.5F) / kTile;
+    /// Along the row of pixel centres y.
+    class Row {
+    public:
+        Row(Shift from, Shift to, int x0)
+            : from_(from), slope_{(to.x - from.x) / kTile, (to.y - from.y) / kTile}, x0_(x0) {}
+        Shift at(int x) const {
+            const float u = static_cast<float>(x - x0_) + 0.5F;
+            return {from_.x + slope_.x * u, from_.y + slope_.y * u};
+        }
+
+    private:
+        Shift from_, slope_;
+        int x0_;
+    };
+    Row row(int y) const {
         const float v = (static_cast<float>(y - row_ * kTile) + 0.5F) / kTile;
-        return mixed(mixed(a_, b_, u), mixed(c_, d_, u), v);
+        return {mixed(a_, c_, v), mixed(b_, d_, v), column_ * kTile};
     }
+    /// At the centre of a pixel of the raster.
+    Shift at(int x, int y) const { return row(y).at(x); }
     /// The largest displacement in the tile, whole pixels, either way.
     int reach() const {
         float most = 0.0F;
