@@ -87,7 +87,10 @@ void Keeper::opened(const OpenedFile& file, std::size_t revision) {
     readRecent();
 }
 
-void Keeper::save(const std::string& path, Document document, std::size_t revision) {
+void Keeper::save(const std::string& named, Document document, std::size_t revision) {
+    // A name without an ending becomes a folder project, the form that shows well in version control.
+    const std::string ending = fs::path(named).extension().string();
+    const std::string path = ending == ".ilfd" || ending == ".ilf" ? named : named + ".ilfd";
     later([this, path, document = std::move(document), revision, extras = extras_, session = session_] {
         auto saved = projects::saveProject(path, document, extras);
         News news;

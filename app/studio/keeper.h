@@ -35,7 +35,8 @@ public:
     bool unsaved(std::size_t revision) const { return revision != savedRevision_; }
     /// Seconds since the last save; negative: not saved since it was opened.
     double savedAgo_s() const;
-    void save(const std::string& path, Document document, std::size_t revision);
+    /// To NAME.ilfd (a folder) or NAME.ilf (an archive); a name with neither gets .ilfd.
+    void save(const std::string& named, Document document, std::size_t revision);
     /// Every 30 s while something changed; undo and redo count as changes.
     void autosaveIfDue(const Document& document, std::size_t revision, double now_s);
     void autosaveNow(const Document& document);
