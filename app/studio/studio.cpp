@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "app/exit_code.h"
+#include "app/output_core/log.h"
 #include "app/studio/core_view.h"
 #include "devices/link/runtime_directory.h"
 #include "projects/pictures.h"
@@ -294,6 +295,7 @@ void Studio::say(const std::string& sentence, ui::Tone tone) {
 double Studio::now_s() const { return std::chrono::duration<double>(Clock::now() - startedAt_).count(); }
 
 int runStudio(const StudioOptions& options) {
+    startLog("studio");
     auto studio = Studio::start(options);
     if (!studio) {
         std::cerr << "illuminatedfocus: " << studio.error().what << '\n';

@@ -15,6 +15,7 @@ WORK=$(mktemp -d /tmp/ilf-window-XXXXXX)
 export ILF_RUNTIME_DIR="$WORK/run" ILF_STATE_DIR="$WORK/state" ILF_CONFIG_DIR="$WORK/config"
 export XDG_STATE_HOME="$WORK/state" XDG_CONFIG_HOME="$WORK/config" LIBGL_ALWAYS_SOFTWARE=1
 STUDIO_PID=""
+STUDIO_LOG="$WORK/state/illuminatedfocus/studio.log"
 
 cleanup() {
     [ -n "$STUDIO_PID" ] && kill -9 "$STUDIO_PID" 2>/dev/null
@@ -27,7 +28,7 @@ trap cleanup EXIT
 fail() {
     echo "FAILED: $*"
     if [ -n "${ILF_KEEP:-}" ]; then import -window root "$ILF_KEEP" 2>/dev/null; fi
-    [ -f "$WORK/studio.log" ] && tail -20 "$WORK/studio.log"
+    tail -20 "$STUDIO_LOG" "$WORK/studio.out" 2>/dev/null
     exit 1
 }
 
@@ -42,7 +43,7 @@ start_display() { # WIDTH HEIGHT
 }
 
 start_studio() { # ARGUMENTS...
-    "$ILF_BIN/illuminatedfocus" "$@" >"$WORK/studio.log" 2>&1 &
+    "$ILF_BIN/illuminatedfocus" "$@" >"$WORK/studio.out" 2>&1 &
     STUDIO_PID=$!
     for _ in $(seq 200); do
         WINDOW=$(xdotool search --onlyvisible --name 'IlluminatedFocus' 2>/dev/null | head -1)

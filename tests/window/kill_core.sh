@@ -19,8 +19,8 @@ kill -9 "$player"
 sleep 1
 [ "$(status .devices.light)" = steady ] || fail "no steady light 1 s after the core died: $(status .)"
 [ "$(status .devices.lens)" = rest ] || fail "the lens does not rest 1 s after the core died: $(status .)"
-for _ in $(seq 50); do grep -q "safe light" "$WORK/studio.log" && break; sleep 0.2; done
-grep -qi "safe light" "$WORK/studio.log" || fail "the studio does not say so: $(cat "$WORK/studio.log")"
+for _ in $(seq 50); do grep -q "safe light" "$STUDIO_LOG" && break; sleep 0.2; done
+grep -qi "safe light" "$STUDIO_LOG" || fail "the studio does not say so: $(cat "$STUDIO_LOG")"
 kill -0 "$STUDIO_PID" || fail "the studio died with the core"
 
 keys ctrl+Return

@@ -21,5 +21,5 @@ sleep 2
 [ "$(status .devices.light)" = slotted ] || fail "the restarted studio changed the light"
 [ "$(shown_hash)" = "$shown" ] || fail "the restarted studio changed the program"
 [ "$(status .devices.swaps)" = "$swaps" ] || fail "a restarted studio sent a program unasked"
-grep -q "plays already" "$WORK/studio.log" || fail "the restarted studio does not say what plays: $(cat "$WORK/studio.log")"
+grep -q "plays already" "$STUDIO_LOG" || fail "the restarted studio does not say what plays: $(cat "$STUDIO_LOG")"
 echo "$kills kills of the studio changed nothing"
