@@ -81,11 +81,12 @@ int printStatus(const std::filesystem::path& runtimeDirectory) {
     using Clock = std::chrono::steady_clock;
     json out{{"runtime_directory", runtimeDirectory.string()}, {"core", nullptr}, {"devices", nullptr}};
     devices::CoreLink link(runtimeDirectory);
-    const auto deadline = Clock::now() + std::chrono::milliseconds(1000);
+    const auto deadline = Clock::now() + std::chrono::milliseconds(2000);
     while (!link.status().connected && Clock::now() < deadline)
         link.poll(std::chrono::milliseconds(50));
     if (link.status().connected) out["core"] = written(link.status());
-    if (const auto state = devices::DeviceClient(runtimeDirectory).readState()) out["devices"] = written(*state);
+    if (const auto state = devices::DeviceClient(runtimeDirectory, std::chrono::milliseconds(1000)).readState())
+        out["devices"] = written(*state);
     std::printf("%s\n", out.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
     return link.status().connected ? 0 : 3;
 }

@@ -215,7 +215,7 @@ void Studio::postJob() {
 }
 
 void Studio::take() {
-    keeper_.autosaveNow(editor_.document());
+    if (keeper_.unsaved(editor_.history().revision())) keeper_.autosaveNow(editor_.document());
     takeSerial_ = editor_.serial();
     takenRevision_ = editor_.history().revision();
 }

@@ -110,6 +110,7 @@ public:
             return;
         }
         const Size size = document.rig.projector;
+        parts_.sampler = Box<CoverageSampler>(CoverageSampler(document.scene.size(), size, map_));
         parts_.light = Box<Lighting>(lighting(document, plan));
         parts_.coverage.assign(regions_.size(), TileGrid(size));
         parts_.visible.assign(light().sheets.size(), TileGrid(size));
@@ -159,7 +160,7 @@ private:
     /// Every region's mask on the raster.
     Rects cover(const Raster& raster) {
         Rects changed;
-        const CoverageSampler sampler(document_.scene.size(), document_.rig.projector, map_);
+        const CoverageSampler& sampler = *parts_.sampler;
         const Mask blank(document_.scene.size());
         for (std::size_t r = 0; r < regions_.size(); ++r) {
             const Mask& mask = regions_[r]->mask.size() == blank.size() ? regions_[r]->mask : blank;

@@ -32,36 +32,34 @@ CoverageSampler::CoverageSampler(Size picture, Size projector,
     down_ = taps(whole(projector.height), m[4], m[5]);
 }
 
-std::vector<CoverageSampler::Tap> CoverageSampler::taps(int count, double scale, double offset) {
-    std::vector<Tap> all(static_cast<std::size_t>(count));
+CoverageSampler::Taps CoverageSampler::taps(int pixels, double scale, double offset) {
     // A box as wide as the projector pixel, at least one camera pixel: at scale 1 and below that is linear
     // interpolation.
     const double width = std::max(1.0, scale);
-    for (int i = 0; i < count; ++i) {
+    Taps taps;
+    taps.count = static_cast<int>(std::ceil(width)) + 1;
+    for (int i = 0; i < pixels; ++i) {
         const double centre = scale * (i + 0.5) + offset;
         const double from = centre - width / 2, to = centre + width / 2;
-        Tap& tap = all[static_cast<std::size_t>(i)];
-        tap.first = static_cast<int>(std::floor(from));
-        int left = 256;
-        for (int x = tap.first; x < to; ++x) {
-            const double covered = std::min(to, x + 1.0) - tap.first;  // running total: the weights sum to 256 exactly
-            const double before = std::max(from - tap.first, 0.0);
-            const int total = static_cast<int>(std::lround(256.0 * (covered - before) / width));
-            const int weight = total - (256 - left);
-            tap.weights.push_back(static_cast<std::uint16_t>(weight));
-            left -= weight;
+        const int first = static_cast<int>(std::floor(from));
+        taps.first.push_back(first);
+        int given = 0;
+        for (int k = 0; k < taps.count; ++k) {
+            // The running total is rounded, not each weight: so they sum to 256 exactly.
+            const double covered = std::clamp(first + k + 1.0, from, to) - from;
+            const int total = k + 1 == taps.count ? 256 : static_cast<int>(std::lround(256.0 * covered / width));
+            taps.weights.push_back(static_cast<std::uint16_t>(total - given));
+            given = total;
         }
-        tap.weights.back() = static_cast<std::uint16_t>(tap.weights.back() + left);
     }
-    return all;
+    return taps;
 }
 
 PixelRect<CameraFrame> CoverageSampler::source(int column, int row) const {
     if (axisAligned_) {
-        const auto span = [](const std::vector<Tap>& taps, int tile) {
-            const Tap& first = taps[static_cast<std::size_t>(tile * kTile)];
-            const Tap& last = taps[static_cast<std::size_t>(tile * kTile + kTile - 1)];
-            return std::pair{first.first, last.first + static_cast<int>(last.weights.size())};
+        const auto span = [](const Taps& taps, int tile) {
+            const auto from = static_cast<std::size_t>(tile) * kTile;
+            return std::pair{taps.first[from], taps.first[from + kTile - 1] + taps.count};
         };
         const auto [x0, x1] = span(across_, column);
         const auto [y0, y1] = span(down_, row);
@@ -97,30 +95,35 @@ Tile CoverageSampler::separable(const std::vector<std::uint8_t>& pixels, PixelRe
                                 int row) const {
     const auto width = static_cast<std::size_t>(at.width()), height = static_cast<std::size_t>(at.height());
     std::vector<std::uint16_t> narrow(static_cast<std::size_t>(kTile) * height);
-    for (int x = 0; x < kTile; ++x) {
-        const Tap& tap = across_[static_cast<std::size_t>(column * kTile + x)];
-        const auto first = static_cast<std::size_t>(tap.first - at.x0);
-        for (std::size_t y = 0; y < height; ++y) {
-            const std::uint8_t* p = &pixels[y * width + first];
+    const auto countAcross = static_cast<std::size_t>(across_.count), countDown = static_cast<std::size_t>(down_.count);
+    const int* firstAcross = &across_.first[static_cast<std::size_t>(column) * kTile];
+    const std::uint16_t* weightsAcross = &across_.weights[static_cast<std::size_t>(column) * kTile * countAcross];
+    for (std::size_t y = 0; y < height; ++y) {
+        const std::uint8_t* line = &pixels[y * width];
+        std::uint16_t* to = &narrow[y * kTile];
+        for (std::size_t x = 0; x < kTile; ++x) {
+            const std::uint8_t* p = line + (firstAcross[x] - at.x0);
+            const std::uint16_t* weights = weightsAcross + x * countAcross;
             unsigned sum = 0;
-            for (std::size_t k = 0; k < tap.weights.size(); ++k)
-                sum += unsigned{tap.weights[k]} * p[k];
-            narrow[y * kTile + static_cast<std::size_t>(x)] = static_cast<std::uint16_t>(sum);
+            for (std::size_t k = 0; k < countAcross; ++k)
+                sum += unsigned{weights[k]} * p[k];
+            to[x] = static_cast<std::uint16_t>(sum);
         }
     }
     Tile tile;
     std::array<unsigned, kTile> sums;
-    for (int y = 0; y < kTile; ++y) {
-        const Tap& tap = down_[static_cast<std::size_t>(row * kTile + y)];
-        const auto first = static_cast<std::size_t>(tap.first - at.y0);
+    for (std::size_t y = 0; y < kTile; ++y) {
+        const std::size_t pixel = static_cast<std::size_t>(row) * kTile + y;
+        const auto first = static_cast<std::size_t>(down_.first[pixel] - at.y0);
+        const std::uint16_t* weights = &down_.weights[pixel * countDown];
         sums.fill(1U << 15);
-        for (std::size_t k = 0; k < tap.weights.size(); ++k) {
+        for (std::size_t k = 0; k < countDown; ++k) {
             const std::uint16_t* line = &narrow[(first + k) * kTile];
             for (std::size_t x = 0; x < kTile; ++x)
-                sums[x] += unsigned{tap.weights[k]} * line[x];
+                sums[x] += unsigned{weights[k]} * line[x];
         }
         for (std::size_t x = 0; x < kTile; ++x)
-            tile.v[static_cast<std::size_t>(y) * kTile + x] = static_cast<std::uint8_t>(sums[x] >> 16);
+            tile.v[y * kTile + x] = static_cast<std::uint8_t>(sums[x] >> 16);
     }
     return tile;
 }

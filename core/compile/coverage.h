@@ -23,12 +23,14 @@ public:
     PixelRect<CameraFrame> source(int column, int row) const;
 
 private:
-    /// Weights (sum 256) of consecutive camera pixels for one projector pixel along one axis.
-    struct Tap {
-        int first = 0;
+    /// For each projector pixel along one axis: the first camera pixel it reaches, and `count` weights (sum 256) from
+    /// there on, the last ones 0 where fewer would do.
+    struct Taps {
+        int count = 0;
+        std::vector<int> first;
         std::vector<std::uint16_t> weights;
     };
-    static std::vector<Tap> taps(int count, double scale, double offset);
+    static Taps taps(int pixels, double scale, double offset);
     Tile separable(const std::vector<std::uint8_t>& pixels, PixelRect<CameraFrame> at, int column, int row) const;
     Tile supersampled(const std::vector<std::uint8_t>& pixels, PixelRect<CameraFrame> at, int column, int row) const;
 
@@ -36,7 +38,7 @@ private:
     Homography<CameraFrame, ProjectorFrame> cameraFromProjector_;
     bool axisAligned_ = false;  ///< scale and shift only: rows and columns are filtered one after the other
     bool identity_ = false;     ///< same pixels: tiles are shared instead of sampled
-    std::vector<Tap> across_, down_;
+    Taps across_, down_;
 };
 
 }  // namespace ilf

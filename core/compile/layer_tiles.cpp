@@ -60,10 +60,9 @@ SheetNear sheetNear(const Visible& visible, int sheet, const TilePart& part) {
     for (int y = at.y0; y < at.y1; ++y) {
         const std::uint8_t* weight = near.weight.row(y) + (at.x0 - near.weight.at.x0);
         float* distance = near.signedDistance.row(y);
-        for (int x = 0; x < at.width(); ++x) {
-            const float d = distance[x] < reach * reach ? std::sqrt(distance[x]) : reach;
-            distance[x] = weight[x] > 127 ? d : -d;
-        }
+        const int width = at.width();
+        for (int x = 0; x < width; ++x)
+            distance[x] = std::sqrt(distance[x]) * (weight[x] > 127 ? 1.0F : -1.0F);
     }
     return near;
 }
@@ -72,6 +71,7 @@ SheetNear sheetNear(const Visible& visible, int sheet, const TilePart& part) {
 Tile besideSteps(const Lighting& light, const std::vector<SheetNear>& sheets, const TilePart& part,
                  const Tile& before) {
     const float reach = stepReach(light);
+    const float none = 0.9999F * light.distanceReach;  // as far as distances are known: no border without a step near
     Patch<float> toStep(part.pixels, reach * reach);
     for (const SheetNear& sheet : sheets)
         lowerToDistance(sheet.pieces, true, reach, toStep);
@@ -82,7 +82,7 @@ Tile besideSteps(const Lighting& light, const std::vector<SheetNear>& sheets, co
             bool nearest = step < reach * reach;
             for (const SheetNear& sheet : sheets) {
                 const float soft = std::abs(sheet.signedDistance(x, y));
-                nearest = nearest && (soft >= light.distanceReach || step <= soft * soft);
+                nearest = nearest && (soft >= none || step <= soft * soft);
             }
             hard.at(x % kTile, y % kTile) = nearest ? 255 : 0;
         }

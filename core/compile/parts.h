@@ -2,11 +2,13 @@
 #pragma once
 
 #include "core/compile/compile.h"
+#include "core/compile/coverage.h"
 #include "core/compile/seam.h"
 
 namespace ilf {
 
 struct CompileParts {
+    Box<CoverageSampler> sampler;
     Box<Lighting> light;
     std::vector<TileGrid> coverage;  ///< of each active region on the raster, topmost first, as if nothing lay above
     std::vector<TileGrid> visible;   ///< of each sheet of light: what is seen of it, 255 in all at every pixel

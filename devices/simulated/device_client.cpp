@@ -23,9 +23,7 @@ Result<Body> DeviceClient::call(const Body& request) {
     const auto limit = isQuestion ? timeout_ : (std::holds_alternative<ProgramUpdate>(request) ? 5 : 2) * timeout_;
     const auto deadline = Clock::now() + limit;
     const std::uint64_t id = ++lastId_;
-    // A local socket is connected within a few milliseconds if somebody listens.
-    constexpr std::chrono::milliseconds kConnect{100};
-    if (!client_.send({id, request}, kConnect)) return lost("are not there");
+    if (!client_.send({id, request}, timeout_)) return lost("are not there");
     while (true) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
         if (left.count() <= 0) return lost("do not answer");

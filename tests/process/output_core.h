@@ -78,7 +78,7 @@ public:
     }
     /// Asks the devices until they are as wanted.
     bool devicesBecome(milliseconds time, const std::function<bool(const devices::DeviceState&)>& wanted) const {
-        devices::DeviceClient client(directory_);
+        auto client = devicesClient();
         const auto deadline = Clock::now() + time;
         while (Clock::now() <= deadline) {
             const auto state = client.readState();
@@ -87,8 +87,10 @@ public:
         }
         return false;
     }
+    /// Patient: it is this process, not the devices, that a busy machine keeps waiting.
+    devices::DeviceClient devicesClient() const { return devices::DeviceClient(directory_, seconds(3)); }
     devices::DeviceState deviceState() const {
-        const auto state = devices::DeviceClient(directory_).readState();
+        const auto state = devicesClient().readState();
         REQUIRE_MESSAGE(state.has_value(), (state ? "" : state.error().what));
         return *state;
     }

@@ -40,7 +40,7 @@ Ran ran(const std::string& arguments) {
 std::string in(const OutputCore& core) { return "--runtime-dir '" + core.directory().string() + "' "; }
 
 void inject(const OutputCore& core, InjectFault::Kind kind) {
-    devices::DeviceClient client(core.directory());
+    auto client = core.devicesClient();
     REQUIRE(devices::ask<devices::Done>(client, InjectFault{kind, 0}).has_value());
 }
 

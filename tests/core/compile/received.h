@@ -45,7 +45,7 @@ inline Compiled compiledFrom(const Document& document, const Compiled* previous 
 }
 
 /// Light at the apparent place `at` (projector pixels), 1 = a region away from borders. Independent of the compiler's
-/// way: every level is looked up at 600 points of the eye's blur disc, each carried back through the magnification.
+/// way: every level is looked up at 300 points of the eye's blur disc, each carried back through the magnification.
 /// Assumes the picture fitted into the raster and one distance everywhere.
 inline double received(const Compiled& compiled, Metre distance, Point<ProjectorFrame> at) {
     const Document& document = compiled.document;
@@ -74,7 +74,7 @@ inline double received(const Compiled& compiled, Metre distance, Point<Projector
                    (pixel(ix, iy + 1) * (1 - ax) + pixel(ix + 1, iy + 1) * ax) * ay;
         };
         double light = 0.0;
-        constexpr int kSamples = 600;
+        constexpr int kSamples = 300;
         for (int i = 0; i < kSamples; ++i) {  // a sunflower: even over the disc
             const double r = radius * std::sqrt((i + 0.5) / kSamples), a = i * std::numbers::pi * (3 - std::sqrt(5.0));
             light += look(at.x + r * std::cos(a), at.y + r * std::sin(a));
