@@ -105,12 +105,12 @@ struct Plan {
 };
 
 /// Plans. The sweep runs from the lowest focus level to P_s + alpha, or farther where a strength or a focus level asks
-/// for it. Refusals (Fault::unsafe): a rest power beyond the lens, a slot rate that is no multiple of the sweep rate, an
-/// end of the sweep that the sine cannot hold within its error budget for even one slot, and for a camera any focused
-/// object's level it cannot hold. What a single region asks in vain is no refusal: it gets `problem` and `help`, and the
-/// level that comes nearest. "Already blurred" is judged on the far side only: blur on the near side rests on an estimate
-/// of what the eye cannot accommodate away. Only a level at the end of the sweep may have a slot below its border of blur
-/// (with alpha near 0), and then it has a `problem`.
+/// for it. Refusals (Fault::unsafe): a rest power beyond the lens, a slot rate that is no multiple of the sweep rate,
+/// an end of the sweep that the sine cannot hold within its error budget for even one slot, and for a camera any
+/// focused object's level it cannot hold. What a single region asks in vain is no refusal: it gets `problem` and
+/// `help`, and the level that comes nearest. "Already blurred" is judged on the far side only: blur on the near side
+/// rests on an estimate of what the eye cannot accommodate away. Only a level at the end of the sweep may have a slot
+/// below its border of blur (with alpha near 0), and then it has a `problem`.
 Result<Plan> plan(const PlanInput& input);
 
 /// The stand-in scheduler's budget: slots serve a level while their rms power error stays below it.
