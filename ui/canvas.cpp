@@ -121,11 +121,23 @@ std::optional<Distance> scaled(const Distance& distance, double ratio) {
     return std::nullopt;
 }
 
-std::optional<Point<CameraFrame>> badgePlace(const Document& document, const Region& region) {
-    if (region.id == kBackgroundId || region.mask.empty()) return std::nullopt;
-    const PixelRect<CameraFrame> covered = region.mask.coveredPixels().clipped(document.scene.size());
-    if (covered.empty()) return std::nullopt;
-    return Point<CameraFrame>{(covered.x0 + covered.x1) / 2.0, (covered.y0 + covered.y1) / 2.0};
+std::vector<Badge> badges(const Panel& p, const Viewport& viewport) {
+    std::vector<Badge> placed;
+    const double wide = 84 * p.scale, high = 25 * p.scale;
+    for (const Region* region : activeRegions(p.document())) {
+        const PixelRect<CameraFrame> covered = region->mask.coveredPixels().clipped(p.document().scene.size());
+        if (covered.empty()) continue;
+        Badge badge{region, viewport.toWindow({(covered.x0 + covered.x1) / 2.0, (covered.y0 + covered.y1) / 2.0})};
+        // Every move clears at least one of those placed before, so as many rounds as there are badges suffice.
+        for (std::size_t round = 0; round < placed.size(); ++round) {
+            for (const Badge& other : placed) {
+                const bool hides = std::abs(badge.at.x - other.at.x) < wide && std::abs(badge.at.y - other.at.y) < high;
+                if (hides) badge.at.y = other.at.y + high;
+            }
+        }
+        placed.push_back(badge);
+    }
+    return placed;
 }
 
 void zoomTo(State& state, double zoom) {

@@ -16,8 +16,13 @@ const Region* regionAt(const Document& document, Point<CameraFrame> at);
 Metre markDistance(const Panel& p);
 /// A distance whose every point is `ratio` times as far; nothing for a depth map, which is measured.
 std::optional<Distance> scaled(const Distance& distance, double ratio);
-/// Where a region's distance badge sits: the middle of what it covers, in picture pixels.
-std::optional<Point<CameraFrame>> badgePlace(const Document& document, const Region& region);
+/// The distance written on a region, in the middle of what it covers.
+struct Badge {
+    const Region* region = nullptr;
+    Point<WidgetFrame> at;
+};
+/// Badges of all regions that take part; where two would lie on each other, the lower one gives way downwards.
+std::vector<Badge> badges(const Panel& p, const Viewport& viewport);
 
 /// Radius of handles in window pixels at scale 1; the reach of a click is a little more.
 inline constexpr double kHandle = 7.0, kReach = 11.0;

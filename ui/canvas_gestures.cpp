@@ -99,10 +99,7 @@ bool takeHandle(Panel& p, const Viewport& viewport, Point<WidgetFrame> at) {
         gesture.index = eye == Eye::left ? 0 : 1;
         return true;
     }
-    for (const Region* shown : activeRegions(p.document())) {
-        const auto place = badgePlace(p.document(), *shown);
-        if (!place) continue;
-        const Point<WidgetFrame> badge = viewport.toWindow(*place);
+    for (const auto& [shown, badge] : badges(p, viewport)) {
         if (std::abs(badge.x - at.x) > 34 * p.scale || std::abs(badge.y - at.y) > 12 * p.scale) continue;
         p.state.selected = shown->id;
         gesture.kind = Kind::distance;

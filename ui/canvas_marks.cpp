@@ -50,9 +50,7 @@ struct Marks {
 
 void drawBadges(const Marks& m) {
     const auto driver = m.p.plan() != nullptr ? m.p.plan()->driver : std::nullopt;
-    for (const Region* region : activeRegions(m.p.document())) {
-        const auto place = badgePlace(m.p.document(), *region);
-        if (!place) continue;
+    for (const auto& [region, place] : badges(m.p, m.viewport)) {
         std::string words;
         if (driver == region->id) words += std::string(hasIcons() ? icon::star : "*") + " ";
         const RegionPlan* planned = m.p.planOf(region->id);
@@ -63,7 +61,7 @@ void drawBadges(const Marks& m) {
         } else {
             words += "depth map";
         }
-        m.label(m.at(*place), words, lookColour(region->look), region->id == m.p.state.selected);
+        m.label(vec(place), words, lookColour(region->look), region->id == m.p.state.selected);
     }
 }
 
@@ -82,10 +80,10 @@ void drawOptics(const Marks& m) {
         const ImVec2 c = m.at(centre);
         // Dashes: the circle is where the effect ends, not something painted.
         const auto r = static_cast<float>(radius * m.viewport.zoom);
-        constexpr int kDashes = 96;
-        for (int i = 0; i < kDashes; i += 2) {
-            const float a = 6.2831853f * static_cast<float>(i) / kDashes,
-                        b = 6.2831853f * static_cast<float>(i + 1) / kDashes;
+        const int dashes = 2 * std::clamp(static_cast<int>(r / m.px(3)), 24, 400);
+        for (int i = 0; i < dashes; i += 2) {
+            const float a = 6.2831853f * static_cast<float>(i) / static_cast<float>(dashes),
+                        b = 6.2831853f * static_cast<float>(i + 1) / static_cast<float>(dashes);
             m.draw.AddLine({c.x + r * std::cos(a), c.y + r * std::sin(a)},
                            {c.x + r * std::cos(b), c.y + r * std::sin(b)}, rgb(0xC9D1DB, live ? 110 : 55), m.px(1.2));
         }

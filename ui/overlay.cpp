@@ -126,7 +126,7 @@ OverlayTile overlayTile(const Document& document, const RegionId& selected, int 
                 const bool on = region.look != Look::focus || dot;
                 alpha = on ? (bright ? 1.0 : 0.75) : 0.12;
             } else if (region.look == Look::blur) {
-                alpha = (px + py) % hatchPeriod < hatchWidth ? (bright ? 0.55 : 0.34) : (bright ? 0.05 : 0.0);
+                alpha = (px + py) % hatchPeriod < hatchWidth ? (bright ? 0.6 : 0.42) : (bright ? 0.05 : 0.0);
             } else {
                 alpha = bright ? 0.06 : 0.0;
             }
