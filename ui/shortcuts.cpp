@@ -398,14 +398,6 @@ void shortcutKeys(Panel& p) {
         if (press.key == info(Command::holdPlain).key.key) state.plainHeld = down;
         if (press.key == info(Command::hideOverlay).key.key) state.overlayHidden = down;
     };
-    for (const KeyPress& press : p.input.released) {
-        held(press, false);
-        const bool wasDistance = press.key == info(Command::editDistance).key.key && state.distanceHeld;
-        if (!wasDistance) continue;
-        state.distanceHeld = false;
-        // D alone types a distance; D with a drag has scrubbed it.
-        if (!std::exchange(state.distanceDragged, false)) p.run(Command::editDistance);
-    }
     for (const KeyPress& press : p.input.pressed) {
         const Key key{press.key, press.ctrl, press.shift};
         const bool function = press.key >= keys::f1 && press.key < keys::f1 + 25;
@@ -426,6 +418,15 @@ void shortcutKeys(Panel& p) {
             if (!press.repeat || repeats) p.run(entry.command);
             break;
         }
+    }
+    // After the presses: a key tapped within one frame must not stay held.
+    for (const KeyPress& press : p.input.released) {
+        held(press, false);
+        const bool wasDistance = press.key == info(Command::editDistance).key.key && state.distanceHeld;
+        if (!wasDistance) continue;
+        state.distanceHeld = false;
+        // D alone types a distance; D with a drag has scrubbed it.
+        if (!std::exchange(state.distanceDragged, false)) p.run(Command::editDistance);
     }
 }
 

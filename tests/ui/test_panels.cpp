@@ -54,6 +54,17 @@ TEST_CASE("panels: the key of a distance opens its field") {
     CHECK(desk.state.field.editing == Headless::id("###pages", {"region", "###distance"}));
 }
 
+TEST_CASE("panels: a key pressed and let go within one frame acts and is not held") {
+    Desk desk(twoRegions());
+    desk.input.pressed = desk.input.released = {{keys::letter('D')}};
+    desk.frame();
+    desk.input.pressed = desk.input.released = {{keys::space}};
+    desk.frame();
+    CHECK_FALSE(desk.state.distanceHeld);
+    CHECK_FALSE(desk.state.panHeld);
+    CHECK(desk.state.field.editing != 0);
+}
+
 TEST_CASE("panels: a field is scrubbed by previews and one commit") {
     Desk desk(twoRegions());
     desk.state.page = Page::wearer;
