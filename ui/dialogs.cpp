@@ -211,9 +211,9 @@ void fileDialog(Panel& p) {
 
 void recoveryDialog(Panel& p) {
     bool open = true;
-    if (!beginSheet(p, "###recovery", 520, 210, open)) return;
+    if (!beginSheet(p, "###recovery", 520, 190, open)) return;
     text("Work that was not saved", colour::text, Font::strong);
-    wrapped(p.state.recovery->what + " was being painted when the studio ended. It can be taken up where it was.");
+    wrapped(p.state.recovery->what + ". The studio ended before it was saved; it can be taken up where it was.");
     ImGui::Dummy({1, p.px(8)});
     std::optional<Recover::Choice> choice;
     if (ImGui::Button("Recover###recover", {p.px(130), p.px(36)})) choice = Recover::Choice::recover;

@@ -70,7 +70,7 @@ void toasts(Panel& p) {
 }
 
 void hints(Panel& p) {
-    if (!p.document().scene.picture || p.state.panels.hidden) return;
+    if (!p.document().scene.picture || p.state.panels.hidden || p.state.popupsOpen) return;
     const auto next = std::find_if(std::begin(kHints), std::end(kHints),
                                    [&](const HintText& hint) { return !p.state.hintsUsed.contains(hint.hint); });
     if (next == std::end(kHints)) return;
