@@ -176,7 +176,7 @@ StartReport noteStart(Clock::time_point now) {
     report.offerSafeStart = report.crashes >= kCrashesForSafeStart;
     if (report.offerSafeStart) {
         report.sentence = "The studio ended unexpectedly " + std::to_string(report.crashes) +
-                          " times in the last five minutes. Nothing was opened by itself; the autosaved work is kept.";
+                          " times in the last five minutes. Nothing was put on show by itself; the autosaved work is kept.";
     }
     return report;
 }

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kAutosaveEvery_s = 30.0;
-constexpr std::size_t kNeverSaved = static_cast<std::size_t>(-1);
+constexpr std::size_t kNever = static_cast<std::size_t>(-1);
 
 fs::path layoutFile() { return projects::configDir() / "layout.txt"; }
 
@@ -39,11 +40,12 @@ std::string timeOfDay(std::chrono::system_clock::time_point at) {
 Keeper::Keeper(std::function<void()> onNews)
     : onNews_(std::move(onNews)), thread_([this](std::stop_token stop) { run(stop); }) {
     const auto start = projects::noteStart();
-    if (!start.sentence.empty()) news_.push_back({start.sentence, false, {}, {}, {}});
+    crashedLately_ = start.offerSafeStart;
+    if (!start.sentence.empty()) news_.push_back({.sentence = start.sentence, .well = false});
     if (auto session = projects::beginSession()) {
         session_ = *std::move(session);
     } else {
-        news_.push_back({session.error().what, false, {}, {}, {}});
+        news_.push_back({.sentence = session.error().what, .well = false});
     }
     readRecent();
 }
@@ -58,14 +60,29 @@ void Keeper::run(std::stop_token stop) {
         std::function<void()> task;
         {
             std::unique_lock lock(mutex_);
+            working_ = false;
+            idle_.notify_all();
             arrived_.wait(lock, stop, [this] { return !tasks_.empty(); });
             if (tasks_.empty()) return;  // asked to stop, and everything asked for is done
             task = std::move(tasks_.front());
             tasks_.pop_front();
+            working_ = true;
         }
-        task();
+        try {
+            task();
+        } catch (const std::exception& e) {  // a library threw, or memory ran out
+            const std::scoped_lock lock(mutex_);
+            news_.push_back({.sentence = std::string("A file could not be written: ") + e.what() + ". Save again.",
+                             .well = false,
+                             .retryAutosave = true});
+        }
         onNews_();
     }
+}
+
+void Keeper::finish() {
+    std::unique_lock lock(mutex_);
+    idle_.wait(lock, [this] { return tasks_.empty() && !working_; });
 }
 
 void Keeper::later(std::function<void()> task) {
@@ -76,30 +93,40 @@ void Keeper::later(std::function<void()> task) {
     arrived_.notify_one();
 }
 
-void Keeper::opened(const OpenedFile& file, std::size_t revision) {
+void Keeper::opened(const OpenedFile& file, std::size_t revision, const Document* leftUnsaved) {
+    if (leftUnsaved != nullptr && session_) {
+        autosaveNow(*leftUnsaved);
+        if (auto fresh = projects::beginSession()) session_ = *std::move(fresh);
+    }
+    ++project_;
     path_ = file.projectPath;
     extras_ = file.extras;
     autosavedRevision_ = revision;
-    savedRevision_ = file.recovered ? kNeverSaved : revision;
+    saved_ = file.recovered ? std::nullopt : std::optional(file.document);
     savedAt_s_ = -1.0;
     if (path_.empty()) return;
     (void)projects::rememberProject(path_, file.document.name);
     readRecent();
 }
 
-void Keeper::save(const std::string& named, Document document, std::size_t revision) {
+void Keeper::save(const std::string& named, Document document) {
     // A name without an ending becomes a folder project, the form that shows well in version control.
     const std::string ending = fs::path(named).extension().string();
     const std::string path = ending == ".ilfd" || ending == ".ilf" ? named : named + ".ilfd";
-    later([this, path, document = std::move(document), revision, extras = extras_, session = session_] {
+    later([this, path, document = std::move(document), extras = extras_, session = session_, project = project_] {
         auto saved = projects::saveProject(path, document, extras);
         News news;
+        news.project = project;
         if (saved) {
-            news = {"Saved " + path, true, *std::move(saved), revision, path};
+            news.sentence = "Saved " + path;
+            news.extras = *std::move(saved);
+            news.saved = document;
+            news.path = path;
             if (session) projects::workIsSaved(*session);
             (void)projects::rememberProject(path, document.name);
         } else {
-            news = {saved.error().what, false, {}, {}, {}};
+            news.sentence = saved.error().what;
+            news.well = false;
         }
         const std::scoped_lock lock(mutex_);
         news_.push_back(std::move(news));
@@ -110,16 +137,16 @@ void Keeper::autosaveIfDue(const Document& document, std::size_t revision, doubl
     if (revision == autosavedRevision_ || now_s - autosavedAt_s_ < kAutosaveEvery_s) return;
     autosavedRevision_ = revision;
     autosavedAt_s_ = now_s;
-    autosaveNow(document);
+    if (unsaved(document)) autosaveNow(document);
 }
 
 void Keeper::autosaveNow(const Document& document) {
     if (!session_) return;
     later([this, document, session = *session_, extras = extras_, path = path_] {
-        if (const auto saved = projects::autosave(session, document, extras, path); !saved) {
-            const std::scoped_lock lock(mutex_);
-            news_.push_back({"Autosave failed: " + saved.error().what, false, {}, {}, {}});
-        }
+        const auto kept = projects::autosave(session, document, extras, path);
+        if (kept) return;
+        const std::scoped_lock lock(mutex_);
+        news_.push_back({.sentence = "Autosave failed: " + kept.error().what, .well = false, .retryAutosave = true});
     });
 }
 
@@ -131,13 +158,14 @@ std::vector<std::pair<std::string, bool>> Keeper::takeSentences() {
     }
     std::vector<std::pair<std::string, bool>> sentences;
     for (News& one : news) {
-        if (one.extras) extras_ = *std::move(one.extras);
-        if (one.savedRevision) {
-            savedRevision_ = autosavedRevision_ = *one.savedRevision;
+        if (one.saved && one.project == project_) {
+            extras_ = *std::move(one.extras);
+            saved_ = *std::move(one.saved);
             savedAt_s_ = monotonic_s();
             path_ = one.path;
-            readRecent();
         }
+        if (one.saved) readRecent();
+        if (one.retryAutosave) autosavedRevision_ = kNever;
         (one.well ? spdlog::info("{}", one.sentence) : spdlog::error("{}", one.sentence));
         sentences.emplace_back(std::move(one.sentence), one.well);
     }
@@ -184,10 +212,13 @@ Result<std::optional<OpenedFile>> Keeper::answered(ui::Recover::Choice choice) {
         file.note = "Recovered. Save to keep it.";
         return std::optional(std::move(file));
     }
-    projects::skipRecovery(pending);
-    if (choice == ui::Recover::Choice::skip || !pending.originalExists) return std::optional<OpenedFile>();
+    if (choice == ui::Recover::Choice::skip || !pending.originalExists) {
+        projects::skipRecovery(pending);
+        return std::optional<OpenedFile>();
+    }
     auto opened = openAny(pending.original.string());
     if (!opened) return tl::unexpected(opened.error());
+    projects::skipRecovery(pending);
     return std::optional(*std::move(opened));
 }
 
@@ -198,14 +229,14 @@ std::string Keeper::layoutText() const {
     return text.str();
 }
 
-void Keeper::closed(const std::string& layoutText, std::size_t revision) {
+void Keeper::closed(const std::string& layoutText, const Document& document) {
     std::error_code ignored;
     fs::create_directories(layoutFile().parent_path(), ignored);
     if (const auto kept = projects::writeAtomically(layoutFile(), layoutText); !kept) {
         spdlog::warn("{}", kept.error().what);
     }
     // Unsaved work stays where recovery finds it.
-    if (session_ && !unsaved(revision)) projects::endSession(*session_);
+    if (session_ && !unsaved(document)) projects::endSession(*session_);
     projects::noteGoodEnd();
 }
 

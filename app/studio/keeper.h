@@ -27,16 +27,19 @@ public:
     ~Keeper();
 
     /// Another project is shown (a recovered one counts as unsaved); `revision` is History::revision of its first state.
-    void opened(const OpenedFile& file, std::size_t revision);
+    /// `leftUnsaved` is the project it replaces if that was not saved: its autosave stays, and is offered for recovery
+    /// at the next start.
+    void opened(const OpenedFile& file, std::size_t revision, const Document* leftUnsaved);
     const std::string& projectPath() const { return path_; }
     const projects::ProjectExtras& extras() const { return extras_; }
     void setExtras(projects::ProjectExtras extras) { extras_ = std::move(extras); }
 
-    bool unsaved(std::size_t revision) const { return revision != savedRevision_; }
+    /// By content: what was painted and taken back again is saved.
+    bool unsaved(const Document& document) const { return project_ > 0 && !(saved_ && document == *saved_); }
     /// Seconds since the last save; negative: not saved since it was opened.
     double savedAgo_s() const;
     /// To NAME.ilfd (a folder) or NAME.ilf (an archive); a name with neither gets .ilfd.
-    void save(const std::string& named, Document document, std::size_t revision);
+    void save(const std::string& named, Document document);
     /// Every 30 s while something changed; undo and redo count as changes.
     void autosaveIfDue(const Document& document, std::size_t revision, double now_s);
     void autosaveNow(const Document& document);
@@ -55,7 +58,11 @@ public:
 
     std::string layoutText() const;
     /// The studio ends: the layout is kept, and an autosave that is no longer needed goes.
-    void closed(const std::string& layoutText, std::size_t revision);
+    void closed(const std::string& layoutText, const Document& document);
+    /// Waits until everything asked for is on the disk, and takes the news of it.
+    void finish();
+    /// The studio crashed again and again lately: nothing should happen by itself.
+    bool crashedLately() const { return crashedLately_; }
 
 private:
     void run(std::stop_token stop);
@@ -64,24 +71,31 @@ private:
 
     std::string path_;
     projects::ProjectExtras extras_;
-    std::size_t savedRevision_ = 0, autosavedRevision_ = 0;
+    std::optional<Document> saved_;        ///< as it was when last opened or saved; nothing: never
+    std::size_t autosavedRevision_ = 0;
+    std::uint64_t project_ = 0;            ///< counts projects shown: late news of another one is only said
+    bool crashedLately_ = false;
     double savedAt_s_ = -1.0, autosavedAt_s_ = 0.0;
     std::vector<ui::RecentFile> recent_;
     std::optional<projects::AutosaveSession> session_;
     std::optional<projects::PendingRecovery> pending_;
 
     struct News {
-        std::string sentence;
+        std::string sentence{};
         bool well = true;
-        std::optional<projects::ProjectExtras> extras;
-        std::optional<std::size_t> savedRevision;
-        std::string path;
+        std::optional<projects::ProjectExtras> extras{};
+        std::optional<Document> saved{};
+        std::string path{};
+        std::uint64_t project = 0;
+        bool retryAutosave = false;
     };
     std::function<void()> onNews_;
     std::mutex mutex_;
     std::condition_variable_any arrived_;
     std::deque<std::function<void()>> tasks_;
     std::vector<News> news_;
+    bool working_ = false;                 ///< guarded by mutex_
+    std::condition_variable idle_;
     std::jthread thread_;  // last: finishes what was asked before it goes
 };
 

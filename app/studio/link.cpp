@@ -22,7 +22,10 @@ Link::Link(std::string coreProgram, std::filesystem::path runtimeDirectory, std:
 void Link::send(Sending sending) {
     const std::scoped_lock lock(mutex_);
     // A live update must not undo a take that has not left yet.
-    if (next_ && next_->why == devices::Why::take) sending.why = devices::Why::take;
+    if (next_ && next_->why == devices::Why::take && sending.why == devices::Why::live) {
+        sending.why = devices::Why::take;
+        sending.hold = next_->hold;
+    }
     next_ = std::move(sending);
 }
 
@@ -57,7 +60,7 @@ void Link::run(std::stop_token stop) {
             if (const auto done = core.safeLight(); !done) trouble = done.error().what;
         }
         if (sending) {
-            const auto sent = core.send(sending->compiled->program, sending->revision, sending->why);
+            const auto sent = core.send(sending->compiled->program, sending->revision, sending->why, sending->hold);
             if (!sent) trouble = sent.error().what;
         }
         const auto status = core.poll(kPoll);

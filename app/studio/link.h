@@ -22,6 +22,7 @@ struct Sending {
     std::shared_ptr<const Compiled> compiled;
     std::uint64_t revision = 0;
     devices::Why why = devices::Why::live;
+    std::uint64_t hold = 0;  ///< Status::hold when the operator pressed TAKE: the one it may end
 };
 
 /// What the link says, newest wins.

@@ -87,11 +87,12 @@ Studio::Studio(StudioOptions options, std::unique_ptr<Window> window, OpenedFile
     if (!options_.resetLayout) ui_ = ui::withLayout(ui_, keeper_.layoutText());
     ui_.mode = startMode(options_.view);
     ui_.recovery = options_.screenshot.empty() ? keeper_.recoveryQuestion() : std::nullopt;
-    playAtStart_ = !opened.projectPath.empty() && !ui_.recovery;
+    const bool plays = !opened.projectPath.empty() && !ui_.recovery && !keeper_.crashedLately();
     show(std::move(opened));
+    playAtStart_ = plays;
 }
 
-Studio::~Studio() { keeper_.closed(ui::layoutText(ui_), editor_.history().revision()); }
+Studio::~Studio() { keeper_.closed(ui::layoutText(ui_), editor_.document()); }
 
 int Studio::run() {
     while (true) {
@@ -112,8 +113,10 @@ int Studio::run() {
 
 bool Studio::mayClose() {
     closing_ = false;
+    keeper_.finish();  // a save under way tells whether anything is left unsaved
+    (void)keeper_.takeSentences();
     // Nothing is lost by closing: unsaved work is autosaved and offered again at the next start.
-    if (keeper_.unsaved(editor_.history().revision())) keeper_.autosaveNow(editor_.document());
+    if (keeper_.unsaved(editor_.document())) keeper_.autosaveNow(editor_.document());
     return true;
 }
 
@@ -124,6 +127,7 @@ void Studio::frame() {
     input.dropped = window_->takeDroppedFiles();
     const bool eventful = input.trail.size() > 1 || !input.pressed.empty() || !input.released.empty();
 
+    showTitle();
     pictures_.show(editor_.document(), ui_.selected);
     pictures_.show(done_, ui::wants(ui_).lights);
     window_->beginFrame();
@@ -176,6 +180,17 @@ void Studio::takeNews(LinkNews news) {
         quietFrames_ = 0;
     }
     logChange(core_, news.status);
+    const bool another = core_.pid != 0 && news.status.pid != 0 && news.status.pid != core_.pid;
+    if (another) {
+        faultsSeen_ = 0;  // the new one counts its own
+        say("The output core ended and was started again: the light is steady, the lens rests. TAKE plays again.",
+            ui::Tone::error);
+    }
+    if (takeSerial_ && (another || news.status.hold != core_.hold || !news.status.connected)) {
+        forgetTake();
+        say("Nothing was put on show: the light changed before the program was ready. Press TAKE again.",
+            ui::Tone::warning);
+    }
     core_ = std::move(news.status);
     if (playAtStart_ && core_.connected) {
         playAtStart_ = false;
@@ -215,9 +230,22 @@ void Studio::postJob() {
 }
 
 void Studio::take() {
-    if (keeper_.unsaved(editor_.history().revision())) keeper_.autosaveNow(editor_.document());
+    if (!core_.connected) {
+        liveTake_ = false;
+        return say("The output core is not connected, so nothing can be put on show; press TAKE when it is back.",
+                   ui::Tone::warning);
+    }
+    if (keeper_.unsaved(editor_.document())) keeper_.autosaveNow(editor_.document());
     takeSerial_ = editor_.serial();
+    takeHold_ = core_.hold;
+    takeAt_ = Clock::now();
     takenRevision_ = editor_.history().revision();
+}
+
+void Studio::forgetTake() {
+    takeSerial_.reset();
+    playAtStart_ = false;
+    liveTake_ = false;
 }
 
 void Studio::sendIfDue() {
@@ -229,14 +257,20 @@ void Studio::sendIfDue() {
         return;
     }
     const bool taking = takeSerial_ && done_.serial >= *takeSerial_;
-    const bool live = liveTake_ && done_.compiled != sent_;
+    const bool live = liveTake_ && done_.compiled != sent_ && doneHash_ != sentHash_;
     if (!taking && !live) return;
     if (taking) takeSerial_.reset();
     if (live) takenRevision_ = editor_.history().revision();
     sent_ = done_.compiled;
+    sentHash_ = doneHash_;
     ++revision_;
-    latency_.sent(revision_, std::chrono::duration_cast<std::chrono::nanoseconds>(done_.strokeAt.time_since_epoch()).count());
-    link_.send({sent_, revision_, taking ? devices::Why::take : devices::Why::live});
+    // From the stroke, or from TAKE when that came later.
+    const auto asked = taking ? std::max(done_.strokeAt, takeAt_) : done_.strokeAt;
+    if (done_.serial != sentSerial_ || taking) {
+        latency_.sent(revision_, std::chrono::duration_cast<std::chrono::nanoseconds>(asked.time_since_epoch()).count());
+    }
+    sentSerial_ = done_.serial;
+    link_.send({sent_, revision_, taking ? devices::Why::take : devices::Why::live, takeHold_});
 }
 
 ui::View Studio::view() const {
@@ -268,7 +302,7 @@ ui::View Studio::view() const {
     view.liveTake = liveTake_;
     view.editsSinceTake = editsSinceTake();
     view.fileName = keeper_.projectPath();
-    view.unsaved = keeper_.unsaved(history.revision());
+    view.unsaved = keeper_.unsaved(editor_.document());
     view.savedAgo_s = keeper_.savedAgo_s();
     view.recent = keeper_.recent();
     view.cameras = camera_.ids();
@@ -290,6 +324,13 @@ int Studio::editsSinceTake() const {
 void Studio::say(const std::string& sentence, ui::Tone tone) {
     ui::say(ui_, sentence, tone, now_s());
     quietFrames_ = 0;
+}
+
+void Studio::showTitle() {
+    std::string title = editor_.document().name + " - IlluminatedFocus Studio";
+    if (title == title_) return;
+    title_ = std::move(title);
+    window_->setTitle(title_);
 }
 
 double Studio::now_s() const { return std::chrono::duration<double>(Clock::now() - startedAt_).count(); }

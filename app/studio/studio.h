@@ -40,6 +40,7 @@ private:
     void handle(const ui::Requests& requests);
     void say(const std::string& sentence, ui::Tone tone);
     bool mayClose();
+    void showTitle();
     double now_s() const;
     int editsSinceTake() const;           ///< 0: what plays is what is painted
 
@@ -63,6 +64,7 @@ private:
     void show(OpenedFile opened);         ///< another project altogether
     void setScene(Scene scene);
     void take();
+    void forgetTake();
     void sendIfDue();
     void save(const std::string& path);
     void grab();
@@ -92,12 +94,16 @@ private:
     std::uint64_t faultsSeen_ = 0;
     std::uint64_t revision_ = 0;          ///< of the last program sent
     std::optional<std::uint64_t> takeSerial_;  ///< a take waits for the program of this serial
+    std::uint64_t takeHold_ = 0;          ///< the safe light it may end: the one that was held when it was asked for
+    Clock::time_point takeAt_;
+    std::uint64_t sentHash_ = 0, sentSerial_ = 0;
     std::uint64_t doneHash_ = 0;          ///< content of done_.compiled's program
     bool playAtStart_ = false;            ///< a project that was named at the start plays once the core is there
     std::shared_ptr<const Compiled> sent_;
     std::size_t takenRevision_ = 0;       ///< History::revision at the last take
     bool liveTake_ = false;
     bool closing_ = false;
+    std::string title_;
     int quietFrames_ = 0;                 ///< frames since anything happened: then the loop may wait
 
     Worker worker_;                       // threads: after all they wake

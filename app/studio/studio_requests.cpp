@@ -30,7 +30,6 @@ void Studio::on(const ui::RunCommand& request) {
     using ui::Command;
     switch (request.command) {
     case Command::newProject:
-        if (keeper_.unsaved(editor_.history().revision())) keeper_.autosaveNow(editor_.document());
         show(blankProject());
         break;
     case Command::save:
@@ -76,8 +75,7 @@ void Studio::on(const ui::RunCommand& request) {
         if (liveTake_) take();
         break;
     case Command::safeLight:
-        liveTake_ = false;
-        takeSerial_.reset();
+        forgetTake();
         link_.safeLight();
         break;
     case Command::acknowledgeFault:
@@ -101,15 +99,17 @@ void Studio::on(const ui::OpenFile& request) {
     }
     auto opened = openAny(request.path);
     if (!opened) return say(opened.error().what, ui::Tone::error);
-    if (keeper_.unsaved(editor_.history().revision())) keeper_.autosaveNow(editor_.document());
     show(*std::move(opened));
 }
 
 void Studio::show(OpenedFile opened) {
     camera_.close();
     pictures_.hideLive();
-    editor_.replace(std::move(opened.document));
-    keeper_.opened(opened, editor_.history().revision());
+    forgetTake();
+    const Document left = editor_.document();
+    const bool unsaved = keeper_.unsaved(left);
+    editor_.replace(opened.document);
+    keeper_.opened(opened, editor_.history().revision(), unsaved ? &left : nullptr);
     takenRevision_ = editor_.history().revision();
     ui_.selected.clear();
     ui_.fitted = true;
@@ -136,7 +136,7 @@ void Studio::save(const std::string& path) {
         ui::run(ui::Command::saveAs, view(), ui_, asked);
         return;
     }
-    keeper_.save(path, editor_.document(), editor_.history().revision());
+    keeper_.save(path, editor_.document());
 }
 
 void Studio::on(const ui::ExportView& request) {

@@ -26,11 +26,12 @@ Worker::Worker(std::function<void()> onDone) : onDone_(std::move(onDone)), threa
 
 void Worker::run(std::stop_token stop) {
     while (auto job = jobs_.take(stop)) {
+        const std::uint64_t serial = job->serial;
         try {
             work(*std::move(job));
         } catch (const std::exception& e) {  // a library threw where nobody expected it: say so, keep working
             Done failed;
-            failed.serial = lastDone_.serial;
+            failed.serial = serial;
             failed.refusal = Error{Fault::unsupported, std::string("The computation stopped: ") + e.what() +
                                                            ". What plays goes on; undo the last edit."};
             done_.put(std::move(failed));
@@ -56,7 +57,9 @@ void Worker::work(Job job) {
 
     // Compile, sharing whatever the edit cannot reach.
     start = Clock::now();
-    if (planned) {
+    if (planned && last_ && last_->plan == *planned && last_->document == job.document) {
+        done.compiled = last_;  // only the cursor moved, or a gesture ended: the same program, not an equal one
+    } else if (planned) {
         auto compiled = compile(job.document, *planned, last_.get());
         if (compiled) {
             last_ = std::make_shared<const Compiled>(*std::move(compiled));

@@ -59,8 +59,6 @@ public:
 
     void post(Job job) { jobs_.put(std::move(job)); }
     std::optional<Done> tryTake() { return done_.tryTake(); }
-    /// The newest program even if its Done was replaced by a newer one nobody took: programs must not be lost.
-    std::optional<Done> take(std::stop_token stop) { return done_.take(stop); }
 
 private:
     void run(std::stop_token stop);

@@ -93,9 +93,7 @@ void Window::installCallbacks() {
 }
 
 bool Window::shouldClose() const { return glfwWindowShouldClose(window_) != 0; }
-void Window::keepOpen() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
 void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
-bool Window::minimised() const { return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0; }
 
 void Window::toggleFullScreen() {
     if (glfwGetWindowMonitor(window_) != nullptr) {

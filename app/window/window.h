@@ -25,10 +25,8 @@ public:
     Window& operator=(const Window&) = delete;
 
     bool shouldClose() const;
-    void keepOpen();  ///< a close was asked for but something must be saved first
     void setTitle(const std::string& title);
     void toggleFullScreen();
-    bool minimised() const;
     double contentScale() const { return scale_; }
 
     /// Waits at most `seconds` for something to happen, or until `wake`.

@@ -130,7 +130,7 @@ double magnification(const EyeOptics& eye, Metre distance, Dioptre from, Dioptre
 
 Metre blurRadiusOnSurface(const EyeOptics& eye, Metre distance, Dioptre rest, Dioptre lens) {
     const double angle = eye.pupil * abs(defocusAttending(eye, distance, lens, distance, rest));
-    return (distance + eye.lensToPupil) * (0.5 * angle);
+    return Metre::fromSi(ray(eye, distance, rest).n * 0.5 * angle);
 }
 
 }  // namespace ilf

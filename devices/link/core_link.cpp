@@ -19,11 +19,11 @@ constexpr milliseconds kAckTime{1000};
 
 CoreLink::CoreLink(const std::filesystem::path& runtimeDirectory) : client_(coreAddress(runtimeDirectory)) {}
 
-Result<void> CoreLink::send(const Program& program, std::uint64_t revision, Why why) {
+Result<void> CoreLink::send(const Program& program, std::uint64_t revision, Why why, std::uint64_t hold) {
     if (!status_.connected)
         return fail(Fault::device,
                     "The output core is not connected, so nothing was sent; press TAKE when it is back.");
-    Update next{program, contentHash(program), revision, why, status_.hold};
+    Update next{program, contentHash(program), revision, why, hold};
     // A dab right behind a take that still waits replaces its program, not the operator's wish to play.
     if (waiting_ && waiting_->why == Why::take && why == Why::live) {
         next.why = Why::take;

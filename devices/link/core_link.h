@@ -20,9 +20,14 @@ class CoreLink {
 public:
     explicit CoreLink(const std::filesystem::path& runtimeDirectory = ilf::devices::runtimeDirectory());
 
-    /// Why::take ends safe light (the operator pressed TAKE and knows the status that this link showed last); Why::live
-    /// is refused by the core while it holds safe light. Refuses when the core is not connected.
-    Result<void> send(const Program& program, std::uint64_t revision, Why why);
+    /// Why::take ends the safe light `hold` (Status::hold when the operator pressed TAKE) and no other: one that began
+    /// since is not what the operator saw. Why::live is refused by the core while it holds safe light. Refuses when the
+    /// core is not connected.
+    Result<void> send(const Program& program, std::uint64_t revision, Why why, std::uint64_t hold);
+    /// The same for callers who act on the status of this very moment.
+    Result<void> send(const Program& program, std::uint64_t revision, Why why) {
+        return send(program, revision, why, status_.hold);
+    }
     /// Steady white light, lens at rest, until the next take.
     Result<void> safeLight();
     /// Works for at most `timeout`; returns early with what the core said, or when the connection was lost or found.

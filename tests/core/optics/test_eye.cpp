@@ -168,3 +168,13 @@ TEST_CASE("eye: laws of blur") {
         RC_ASSERT(std::abs(product / magnification(eye, distance, a, c) - 1.0) < 1e-14);
     });
 }
+
+TEST_CASE("blur on the surface: is measured against the view through the lens at rest, prescription included") {
+    Wearer wearer;
+    wearer.ametropia = -4.0_D;
+    const EyeOptics eye = eyeOptics(wearer);
+    const Dioptre rest = restPower(eye), lens = rest + 2.0_D;
+    const double angle = eye.pupil * abs(defocusAttending(eye, 0.5_m, lens, 0.5_m, rest));
+    // N(rest) = w + e - w e P: 0.5 + 0.02 + 0.01 * 4.3478 = 0.563478 m, 8 % more than through 0 D.
+    CHECK(blurRadiusOnSurface(eye, 0.5_m, rest, lens).si() == doctest::Approx(0.5634782608695652 * 0.5 * angle));
+}
