@@ -46,7 +46,7 @@ Result<Played> SimulatedCore::play(const Program& program, std::chrono::duration
         link.poll(std::chrono::milliseconds(50));
         if (Clock::now() > patience) return fail(Fault::device, "The simulated core does not answer: try again.");
     }
-    const std::int64_t sent = devices::monotonic_ns();
+    const std::int64_t sent = devices::monotonicNs();
     if (const auto done = link.send(program, kRevision, devices::Why::take); !done) return tl::unexpected(done.error());
     while (link.status().revisionPlayed != kRevision) {
         link.poll(std::chrono::milliseconds(20));

@@ -13,17 +13,23 @@ namespace {
 
 // Half of what a device may stay silent before the studio would call it gone.
 constexpr std::chrono::milliseconds kHeartbeat{100};
+// Another sweep starts in steady light: slots, steady, slots. A region dragged live would ask for one with every update,
+// and the room would flicker at 10-15 Hz, inside the 3-30 Hz that photosensitive people must be spared. One start a
+// second stays far below; until then the program before plays on.
+constexpr std::int64_t kBetweenSweepStarts_ns = 1'000'000'000;
 
 }  // namespace
 
-Player::Player(std::unique_ptr<devices::Stage> stage, std::function<void()> changed)
+Player::Player(std::unique_ptr<devices::Stage> stage, std::function<void()> changed, const std::string& afterFault)
     : stage_(std::move(stage)), changed_(std::move(changed)),
       // Never the number of a player before this one: a take meant for that one must not end this one's hold.
-      lastHold_(static_cast<std::uint64_t>(devices::monotonic_ns())) {
+      lastHold_(static_cast<std::uint64_t>(devices::monotonicNs())) {
     status_.pid = getpid();
     status_.supervisorPid = getppid();
     status_.hold = lastHold_;
-    thread_ = std::jthread([this](std::stop_token stop) { run(std::move(stop)); });
+    status_.fault = afterFault;
+    status_.faults = afterFault.empty() ? 0 : 1;
+    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
 void Player::play(Order order) {
@@ -37,7 +43,7 @@ void Player::safeLight() {
     orders_.put(std::nullopt);
 }
 
-void Player::run(std::stop_token stop) {
+void Player::run(const std::stop_token& stop) {
     stage_->safeLight();
     while (!stop.stop_requested()) {
         try {
@@ -49,8 +55,10 @@ void Player::run(std::stop_token stop) {
                 hold();
                 stage_->safeLight();
             }
+            if (order && *order && std::exchange(deferred_, std::nullopt)) ++replaced_;
+            if (!(order && *order) && deferred_ && !startsTooSoon(*deferred_)) order = std::exchange(deferred_, std::nullopt);
             if (order && *order)
-                obey(**std::move(order));
+                obey(**order);
             else
                 beat();
             say();
@@ -63,6 +71,8 @@ void Player::run(std::stop_token stop) {
 }
 
 void Player::hold() {
+    deferred_.reset();
+    playing_.reset();
     status_.hold = ++lastHold_;
     status_.revisionPlayed = 0;
     status_.contentHashPlayed = 0;
@@ -76,7 +86,12 @@ void Player::fault(const std::string& what) {
     stage_->safeLight();
 }
 
-void Player::obey(Order order) {
+bool Player::startsTooSoon(const Order& order) const {
+    const bool another = playing_ && (*playing_ != order.program.waveform || slotRate_ != order.program.slotRate);
+    return another && devices::monotonicNs() - sweepStarted_ns_ < kBetweenSweepStarts_ns;
+}
+
+void Player::obey(const Order& order) {
     const bool released = order.why == devices::Why::take && order.hold == status_.hold;
     if (status_.hold != 0 && !released) {
         status_.lastRefusal = "Safe light is held; press TAKE to play again.";
@@ -87,11 +102,20 @@ void Player::obey(Order order) {
         status_.lastRefusal = fine.error().what;
         return;
     }
+    if (startsTooSoon(order)) {
+        deferred_ = order;
+        return;
+    }
     const auto loaded = stage_->load(order.program);
-    const std::int64_t loaded_ns = devices::monotonic_ns();
+    const std::int64_t loaded_ns = devices::monotonicNs();
     const auto shown = loaded ? stage_->swap() : loaded;
     if (!shown) return fault(shown.error().what);
     well_ = true;
+    if (!playing_ || *playing_ != order.program.waveform || slotRate_ != order.program.slotRate) {
+        sweepStarted_ns_ = devices::monotonicNs();
+    }
+    playing_ = order.program.waveform;
+    slotRate_ = order.program.slotRate;
     status_.hold = 0;
     status_.fault.clear();
     status_.lastRefusal.clear();
@@ -100,7 +124,7 @@ void Player::obey(Order order) {
     ++status_.swaps;
     status_.received_ns = order.received_ns;
     status_.loaded_ns = loaded_ns;
-    status_.swapped_ns = devices::monotonic_ns();
+    status_.swapped_ns = devices::monotonicNs();
 }
 
 void Player::beat() {

@@ -31,7 +31,8 @@ struct Order {
 class Player {
 public:
     /// `changed` is called from the player's thread after each change of the status.
-    Player(std::unique_ptr<devices::Stage> stage, std::function<void()> changed);
+    /// `afterFault`, if not empty, is told as the first fault: why the player before this one ended.
+    Player(std::unique_ptr<devices::Stage> stage, std::function<void()> changed, const std::string& afterFault = {});
 
     /// The newest order wins; one that was not begun is dropped and counted.
     void play(Order order);
@@ -40,8 +41,9 @@ public:
     std::optional<devices::Status> newStatus() { return given_.tryTake(); }
 
 private:
-    void run(std::stop_token stop);
-    void obey(Order order);
+    void run(const std::stop_token& stop);
+    void obey(const Order& order);
+    bool startsTooSoon(const Order& order) const;
     void beat();
     void hold();
     void fault(const std::string& what);
@@ -59,6 +61,10 @@ private:
     std::uint64_t lastHold_;
     std::uint64_t refused_ = 0;  ///< orders that came while safe light was held
     bool well_ = false;
+    std::optional<Order> deferred_;       ///< waits until another sweep may start
+    std::optional<Waveform> playing_;     ///< of the program on show
+    Hertz slotRate_;
+    std::int64_t sweepStarted_ns_ = 0;
     devices::Status status_;
     std::jthread thread_;  // last: joins before what it uses goes
 };

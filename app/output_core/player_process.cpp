@@ -37,7 +37,7 @@ private:
 
 }  // namespace
 
-int runPlayer(const std::filesystem::path& runtimeDirectory) {
+int runPlayer(const std::filesystem::path& runtimeDirectory, const std::string& afterFault) {
     const Signals signals{SIGTERM, SIGINT};
     prctl(PR_SET_NAME, "ilf-player");
     comeFirst();
@@ -54,7 +54,7 @@ int runPlayer(const std::filesystem::path& runtimeDirectory) {
     }
     const int wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     {
-        Player player(std::make_unique<ConnectedStage>(runtimeDirectory), [wake] { eventfd_write(wake, 1); });
+        Player player(std::make_unique<ConnectedStage>(runtimeDirectory), [wake] { eventfd_write(wake, 1); }, afterFault);
         StudioLink link(*std::move(server), player);
         spdlog::info("player started in safe light");
         while (signals.arrived(0).empty()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace ilf::app {
 
@@ -9,8 +10,9 @@ namespace ilf::app {
 
 /// Starts devices and player, watches the player, makes safe light when it dies and starts it again.
 int runSupervisor(const std::filesystem::path& runtimeDirectory, bool leaveDevices);
-/// Plays on the devices until SIGTERM, or until its supervisor dies.
-int runPlayer(const std::filesystem::path& runtimeDirectory);
+/// Plays on the devices until SIGTERM, or until its supervisor dies. `afterFault`, if not empty, says why the player
+/// before this one ended: its first fault.
+int runPlayer(const std::filesystem::path& runtimeDirectory, const std::string& afterFault);
 /// The simulated lens and projector.
 int runDevices(const std::filesystem::path& runtimeDirectory);
 /// Asks the supervisor of this directory to stop, and waits until it did.

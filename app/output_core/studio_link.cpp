@@ -67,7 +67,7 @@ void StudioLink::handle(const devices::Server::Incoming& incoming) {
 }
 
 void StudioLink::take(const std::string& client, const devices::ProgramUpdate& update) {
-    const std::int64_t received_ns = devices::monotonic_ns();
+    const std::int64_t received_ns = devices::monotonicNs();
     const auto refuse = [&](const Error& error, bool sendWhole) {
         spdlog::warn("update {} refused: {}", update.revision, error.what);
         server_->send(client, {0, devices::Refused{error, sendWhole}});

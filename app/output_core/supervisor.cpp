@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "app/output_core/log.h"
@@ -136,7 +137,8 @@ private:
             // The player goes, in safe light, when this process is killed; also if that happened a moment ago.
             prctl(PR_SET_PDEATHSIG, SIGTERM);
             if (getppid() != self) _exit(1);
-            execl(executable.c_str(), executable.c_str(), "--player", "--runtime-dir", directory.c_str(), nullptr);
+            execl(executable.c_str(), executable.c_str(), "--player", "--runtime-dir", directory.c_str(), "--after-fault",
+                  afterFault_.c_str(), nullptr);
             _exit(127);
         }
         player_ = child;
@@ -150,6 +152,8 @@ private:
         const bool crashed = Clock::now() - started_ < kGoodLife;
         delay_ = crashed ? std::min(2 * std::max(delay_, kFirstDelay), kLongestDelay) : kFirstDelay;
         nextStart_ = Clock::now() + delay_;
+        afterFault_ = "The output core's player ended unexpectedly; the light is steady and the lens rests. TAKE plays "
+                      "again.";
         if (WIFSIGNALED(status))
             spdlog::error("the player was killed by signal {}; safe light; next start in {} ms", WTERMSIG(status),
                           delay_.count());
@@ -165,6 +169,7 @@ private:
     std::optional<pid_t> player_;
     Clock::time_point started_, nextStart_;
     milliseconds delay_{0};
+    std::string afterFault_;  ///< what the next player tells the studio
     std::optional<Clock::time_point> devicesGone_;
 };
 

@@ -119,7 +119,7 @@ FileLock::~FileLock() {
     if (fd_ >= 0) close(fd_);
 }
 
-std::int64_t monotonic_ns() {
+std::int64_t monotonicNs() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;

@@ -48,6 +48,6 @@ std::filesystem::path devicesLock(const std::filesystem::path& runtimeDirectory)
 std::filesystem::path startLock(const std::filesystem::path& runtimeDirectory);
 
 /// CLOCK_MONOTONIC in nanoseconds: the one clock that all processes of a machine share.
-std::int64_t monotonic_ns();
+std::int64_t monotonicNs();
 
 }  // namespace ilf::devices

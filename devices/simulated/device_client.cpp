@@ -34,10 +34,10 @@ Result<Body> DeviceClient::call(const Body& request) {
     }
 }
 
-std::int64_t DeviceClient::now_ns() { return monotonic_ns(); }
+std::int64_t DeviceClient::nowNs() { return monotonicNs(); }
 
 void DeviceClient::waitUntil(std::int64_t time_ns) {
-    const std::int64_t left = time_ns - monotonic_ns();
+    const std::int64_t left = time_ns - monotonicNs();
     if (left > 0) std::this_thread::sleep_for(std::chrono::nanoseconds(left));
 }
 

@@ -15,7 +15,7 @@ public:
                           std::chrono::milliseconds timeout = std::chrono::milliseconds(350));
 
     Result<Body> call(const Body& request) override;
-    std::int64_t now_ns() override;
+    std::int64_t nowNs() override;
     void waitUntil(std::int64_t time_ns) override;
 
     Result<DeviceState> readState() { return ask<DeviceState>(*this, Read{}); }

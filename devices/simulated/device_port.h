@@ -14,7 +14,7 @@ public:
 
     /// The devices' answer; it may be Refused. An error means that there was none.
     virtual Result<Body> call(const Body& request) = 0;
-    virtual std::int64_t now_ns() = 0;
+    virtual std::int64_t nowNs() = 0;
     virtual void waitUntil(std::int64_t time_ns) = 0;
 };
 

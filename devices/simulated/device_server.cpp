@@ -12,7 +12,7 @@ namespace {
 
 // A player says something every 100 ms; one that is silent this long is dead, stopped or hung. The light must be safe
 // within a second.
-constexpr std::int64_t kWatchdog_ns = 750'000'000;
+constexpr std::int64_t kWatchdogNs = 750'000'000;
 
 bool readable(int fd) {
     pollfd item{fd, POLLIN, 0};
@@ -48,8 +48,8 @@ Result<void> serveDevices(const std::filesystem::path& runtimeDirectory, int sto
     auto server = Server::open(devicesAddress(runtimeDirectory));
     if (!server) return tl::unexpected(server.error());
 
-    Machine machine(monotonic_ns());
-    machine.setWatchdog(kWatchdog_ns);
+    Machine machine(monotonicNs());
+    machine.setWatchdog(kWatchdogNs);
     Faults faults;
     std::string player;  // who put the slots on show: whose silence means that nobody watches over them
     said("simulated lens and projector: steady light, lens at rest");
@@ -60,9 +60,9 @@ Result<void> serveDevices(const std::filesystem::path& runtimeDirectory, int sto
         while (auto incoming = (*server)->receive())
             waiting.push_back(*std::move(incoming));
         for (const auto& [client, received] : waiting)
-            if (client == player) machine.playerHeard(monotonic_ns());
+            if (client == player) machine.playerHeard(monotonicNs());
         for (const auto& [client, received] : waiting) {
-            const std::int64_t now = monotonic_ns();
+            const std::int64_t now = monotonicNs();
             if (!received) {
                 said(received.error().what);
                 (*server)->send(client, {0, Refused{received.error(), false}});
@@ -90,7 +90,7 @@ Result<void> serveDevices(const std::filesystem::path& runtimeDirectory, int sto
             if (const auto* refused = std::get_if<Refused>(&answer)) said("refused: " + refused->error.what);
             (*server)->send(client, {message.id, answer});
         }
-        machine.advance(monotonic_ns());
+        machine.advance(monotonicNs());
     }
     said("switched off");
     return {};

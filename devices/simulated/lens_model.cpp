@@ -20,10 +20,10 @@ double phase(const Waveform& w, double t_s) { return 2.0 * std::numbers::pi * (t
 }  // namespace
 
 LensModel LensModel::told(const Waveform& wave, std::int64_t now_ns) const {
-    const double left = decay(seconds(now_ns - started_ns_));
+    const double left = decay(seconds(now_ns - startedNs_));
     LensModel next;
     next.wave_ = wave;
-    next.started_ns_ = now_ns;
+    next.startedNs_ = now_ns;
     next.missingMean_ = mean(wave_) + left * missingMean_ - mean(wave);
     const Dioptre amplitudeNow = amplitude(wave_) + left * missingAmplitude_;
     next.missingAmplitude_ = amplitudeNow - amplitude(wave);
@@ -33,25 +33,25 @@ LensModel LensModel::told(const Waveform& wave, std::int64_t now_ns) const {
 }
 
 Dioptre LensModel::powerAt(std::int64_t now_ns) const {
-    const double t = seconds(now_ns - started_ns_);
+    const double t = seconds(now_ns - startedNs_);
     const double left = decay(t);
     return mean(wave_) + left * missingMean_ -
            (amplitude(wave_) + left * missingAmplitude_) * std::cos(phase(wave_, t));
 }
 
-Dioptre LensModel::errorAt(std::int64_t now_ns) const { return missing_ * decay(seconds(now_ns - started_ns_)); }
+Dioptre LensModel::errorAt(std::int64_t now_ns) const { return missing_ * decay(seconds(now_ns - startedNs_)); }
 
-std::int64_t LensModel::settled_ns(Dioptre budget) const {
-    if (missing_ <= budget) return started_ns_;
+std::int64_t LensModel::settledNs(Dioptre budget) const {
+    if (missing_ <= budget) return startedNs_;
     const double wait_s = kLensTimeConstant.si() * std::log(missing_ / budget);
-    return started_ns_ + static_cast<std::int64_t>(std::ceil(wait_s * 1e9));
+    return startedNs_ + static_cast<std::int64_t>(std::ceil(wait_s * 1e9));
 }
 
-std::int64_t LensModel::nextSweepStart_ns(std::int64_t now_ns) const {
-    if (now_ns <= started_ns_) return started_ns_;
+std::int64_t LensModel::nextSweepStartNs(std::int64_t now_ns) const {
+    if (now_ns <= startedNs_) return startedNs_;
     const double period_ns = 1e9 / wave_.rate.si();
-    const double sweeps = std::ceil(static_cast<double>(now_ns - started_ns_) / period_ns);
-    return started_ns_ + static_cast<std::int64_t>(std::llround(sweeps * period_ns));
+    const double sweeps = std::ceil(static_cast<double>(now_ns - startedNs_) / period_ns);
+    return startedNs_ + static_cast<std::int64_t>(std::llround(sweeps * period_ns));
 }
 
 }  // namespace ilf::devices

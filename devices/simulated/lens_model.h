@@ -22,21 +22,21 @@ public:
     LensModel told(const Waveform& wave, std::int64_t now_ns) const;
     const Waveform& wave() const { return wave_; }
     /// The sweeps start at this time and every 1 / rate after it.
-    std::int64_t started_ns() const { return started_ns_; }
+    std::int64_t startedNs() const { return startedNs_; }
 
     Dioptre powerAt(std::int64_t now_ns) const;
     /// Bound of |power - told wave| from now on; the old wave's amplitude counts whole, whatever its phase.
     Dioptre errorAt(std::int64_t now_ns) const;
     /// When errorAt falls to `budget`.
-    std::int64_t settled_ns(Dioptre budget) const;
+    std::int64_t settledNs(Dioptre budget) const;
     /// The first start of a sweep at or after `now_ns`.
-    std::int64_t nextSweepStart_ns(std::int64_t now_ns) const;
+    std::int64_t nextSweepStartNs(std::int64_t now_ns) const;
 
 private:
     Waveform wave_;
     Dioptre missing_;  ///< bound of what was missing when the wave began
     Dioptre missingMean_, missingAmplitude_;
-    std::int64_t started_ns_ = 0;
+    std::int64_t startedNs_ = 0;
 };
 
 }  // namespace ilf::devices

@@ -50,7 +50,7 @@ Body Machine::refused(std::string why, bool sendWhole) {
 }
 
 void Machine::advance(std::int64_t now_ns) {
-    if (swapAt_ns_ && now_ns >= *swapAt_ns_) {
+    if (swapAtNs_ && now_ns >= *swapAtNs_) {
         // An image that stayed shares its boxes, so that telling so is much cheaper than hashing it again.
         std::vector<std::uint64_t> hashes;
         for (std::size_t i = 0; i < back_.images.size(); ++i) {
@@ -62,9 +62,9 @@ void Machine::advance(std::int64_t now_ns) {
         frontHash_ = backHash_;
         light_ = LightMode::slotted;
         ++counters_.swaps;
-        counters_.swapped_ns = *std::exchange(swapAt_ns_, std::nullopt);
+        counters_.swapped_ns = *std::exchange(swapAtNs_, std::nullopt);
     }
-    if (watchdog_ns_ && light_ == LightMode::slotted && now_ns - heard_ns_ > *watchdog_ns_) {
+    if (watchdogNs_ && light_ == LightMode::slotted && now_ns - heardNs_ > *watchdogNs_) {
         ++counters_.watchdogTrips;
         note("watchdog: the player is silent");
         obeyed(SteadyLight{}, now_ns);
@@ -73,7 +73,7 @@ void Machine::advance(std::int64_t now_ns) {
 }
 
 Body Machine::obeyed(const ProgramUpdate& update) {
-    if (swapAt_ns_) return refused("The projector is about to swap; load after that.");
+    if (swapAtNs_) return refused("The projector is about to swap; load after that.");
     const Program* base = backHash_ != 0 ? &back_ : nullptr;
     if (needsAnotherBase(update, base, backHash_)) return refused("The projector holds another program.", true);
     auto program = assembled(update, base, backHash_);
@@ -109,14 +109,14 @@ Body Machine::obeyed(const Swap&, std::int64_t now_ns) {
     if (backHash_ == 0) return refused("The projector has nothing loaded to swap in.");
     if (back_.slotRate != slotRate_)
         return refused("The loaded program is for another slot rate than the projector's.");
-    swapAt_ns_ = lens_.nextSweepStart_ns(now_ns);
+    swapAtNs_ = lens_.nextSweepStartNs(now_ns);
     note("swap");
     advance(now_ns);
-    return Done{swapAt_ns_.value_or(counters_.swapped_ns)};
+    return Done{swapAtNs_.value_or(counters_.swapped_ns)};
 }
 
 Body Machine::obeyed(const SteadyLight&, std::int64_t now_ns) {
-    swapAt_ns_.reset();
+    swapAtNs_.reset();
     light_ = LightMode::steady;
     note("steady light");
     return Done{now_ns};

@@ -16,7 +16,7 @@ namespace ilf::devices {
 /// a new slot rate while slots are on show, as a DMD controller does. Times are in nanoseconds and never go back.
 class Machine {
 public:
-    explicit Machine(std::int64_t now_ns = 0) : heard_ns_(now_ns) {}
+    explicit Machine(std::int64_t now_ns = 0) : heardNs_(now_ns) {}
 
     /// Does what `request` asks and answers it: Done, Refused, DeviceState or SlotImage.
     Body answered(const Body& request, std::int64_t now_ns);
@@ -25,8 +25,8 @@ public:
 
     /// The driver's watchdog: when the player, who says so here, is not heard of for `limit` while slots are on show,
     /// the machine goes to its power-on state. The last guard, for a player and a supervisor that die together.
-    void playerHeard(std::int64_t now_ns) { heard_ns_ = now_ns; }
-    void setWatchdog(std::optional<std::int64_t> limit_ns) { watchdog_ns_ = limit_ns; }
+    void playerHeard(std::int64_t now_ns) { heardNs_ = now_ns; }
+    void setWatchdog(std::optional<std::int64_t> limit_ns) { watchdogNs_ = limit_ns; }
 
     LightMode light() const { return light_; }
     LensMode lens() const { return lensMode_; }
@@ -50,9 +50,9 @@ private:
     Hertz slotRate_ = 960.0_Hz;
     Program back_, front_;
     std::uint64_t backHash_ = 0, frontHash_ = 0;  ///< 0: nothing
-    std::optional<std::int64_t> swapAt_ns_;
-    std::int64_t heard_ns_ = 0;
-    std::optional<std::int64_t> watchdog_ns_;
+    std::optional<std::int64_t> swapAtNs_;
+    std::int64_t heardNs_ = 0;
+    std::optional<std::int64_t> watchdogNs_;
     std::vector<std::uint64_t> imageHashes_;  ///< of front_
     DeviceState counters_;                    ///< its counters; the rest is filled in by state()
     std::deque<std::string> log_;

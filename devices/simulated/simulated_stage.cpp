@@ -47,11 +47,11 @@ Result<void> SimulatedStage::startSweep() {
     if (!wave) return tl::unexpected(wave.error());
     predicted_ = predicted_.told(loaded_.waveform, wave->at_ns);
     told_ = loaded_.waveform;
-    port_.waitUntil(predicted_.settled_ns(kSettledLens));
+    port_.waitUntil(predicted_.settledNs(kSettledLens));
     if (const auto known = read(); !known) return known;
     // The prediction starts from what we told the lens; the lens may have been told something else before.
     if (state_->lensError > kSettledLens) {
-        port_.waitUntil(port_.now_ns() + static_cast<std::int64_t>(kLensTimeConstant.in(1.0_s) * 5e9));
+        port_.waitUntil(port_.nowNs() + static_cast<std::int64_t>(kLensTimeConstant.in(1.0_s) * 5e9));
         if (const auto known = read(); !known) return known;
     }
     if (state_->lensError > kSettledLens)

@@ -20,13 +20,13 @@ Result<Body> VirtualPort::call(const Body& request) {
     log.emplace_back(orderName(request));
     if (failsAt && failsAt(request))
         return fail(Fault::device, std::string("The order was lost: ") + orderName(request));
-    if (std::holds_alternative<ProgramUpdate>(request)) waitUntil(now_ns_ + std::int64_t(loadTime.in(1.0_s) * 1e9));
-    return machine.answered(request, now_ns_);
+    if (std::holds_alternative<ProgramUpdate>(request)) waitUntil(nowNs_ + std::int64_t(loadTime.in(1.0_s) * 1e9));
+    return machine.answered(request, nowNs_);
 }
 
 void VirtualPort::waitUntil(std::int64_t time_ns) {
-    now_ns_ = std::max(now_ns_, time_ns);
-    machine.advance(now_ns_);
+    nowNs_ = std::max(nowNs_, time_ns);
+    machine.advance(nowNs_);
 }
 
 }  // namespace ilf::devices

@@ -18,13 +18,13 @@ public:
     std::vector<std::string> log;              ///< every order, lost ones too
 
     Result<Body> call(const Body& request) override;
-    std::int64_t now_ns() override { return now_ns_; }
+    std::int64_t nowNs() override { return nowNs_; }
     void waitUntil(std::int64_t time_ns) override;
 
     Machine machine;
 
 private:
-    std::int64_t now_ns_ = 1'000'000'000;
+    std::int64_t nowNs_ = 1'000'000'000;
 };
 
 class VirtualStage : public Stage {
@@ -38,7 +38,7 @@ public:
     StageReport report() const override { return stage_.report(); }
     std::string name() const override { return stage_.name(); }
 
-    DeviceState state() { return port.machine.state(port.now_ns()); }
+    DeviceState state() { return port.machine.state(port.nowNs()); }
 
 private:
     SimulatedStage stage_{port};

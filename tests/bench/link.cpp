@@ -123,8 +123,8 @@ void strokeToSwap(benchmark::State& state) {
         Program next = dabbed(base, 100 + static_cast<int>(random() % 800U), 100 + static_cast<int>(random() % 500U),
                               static_cast<std::uint8_t>(random()));
         // A stroke ends at any phase of the sweep.
-        stage.port.waitUntil(stage.port.now_ns() + static_cast<std::int64_t>(random() % 16'666'667U));
-        const std::int64_t begun_ns = stage.port.now_ns();
+        stage.port.waitUntil(stage.port.nowNs() + static_cast<std::int64_t>(random() % 16'666'667U));
+        const std::int64_t begun_ns = stage.port.nowNs();
         const auto start = std::chrono::steady_clock::now();
         const auto hash = contentHash(next);
         const auto message = decoded(encoded({1, difference(next, hash, &base, baseHash)}));
@@ -132,7 +132,7 @@ void strokeToSwap(benchmark::State& state) {
         const bool loaded = arrived && stage.load(*arrived);
         stage.port.waitUntil(begun_ns + static_cast<std::int64_t>(since_us(start) * 1e3));
         const bool shown = loaded && stage.swap();
-        const double took_ms = static_cast<double>(stage.port.now_ns() - begun_ns) * 1e-6;
+        const double took_ms = static_cast<double>(stage.port.nowNs() - begun_ns) * 1e-6;
         if (!shown) state.SkipWithError("the stage does not play");
         state.SetIterationTime(took_ms * 1e-3);
         times.push_back(took_ms * 1e3);

@@ -16,13 +16,13 @@ Waveform anyWave() {
 TEST_CASE("lens: the error bound holds, and falls to the budget when it says so") {
     law("|power - wave| <= errorAt, errorAt(settled) <= budget", [] {
         auto lens = LensModel().told(anyWave(), 0).told(anyWave(), *rc::gen::inRange(0, 50) * 1'000'000);
-        const std::int64_t start = lens.started_ns();
+        const std::int64_t start = lens.startedNs();
         for (int i = 0; i < 100; ++i) {
             const std::int64_t now = start + i * 700'000;
             const auto told = lens.wave().powerAt(Second::fromSi(double(now - start) * 1e-9));
             RC_ASSERT(abs(lens.powerAt(now) - told) <= lens.errorAt(now) + 1e-9_D);
         }
-        RC_ASSERT(lens.errorAt(lens.settled_ns(0.05_D)) <= 0.05_D);
+        RC_ASSERT(lens.errorAt(lens.settledNs(0.05_D)) <= 0.05_D);
     });
 }
 
@@ -30,15 +30,15 @@ TEST_CASE("lens: a step of 2 D is within 5 percent after the data sheet's 25 ms"
     const auto lens = LensModel().told({0.0_D, 2.0_D, 2.0_D, 60.0_Hz, 0.0_s}, 0);
     CHECK(lens.powerAt(0).si() == doctest::Approx(0.0));
     CHECK(lens.powerAt(25'000'000).si() == doctest::Approx(1.9).epsilon(0.005));
-    CHECK(lens.settled_ns(0.1_D) == doctest::Approx(24'864'000).epsilon(0.001));
+    CHECK(lens.settledNs(0.1_D) == doctest::Approx(24'864'000).epsilon(0.001));
 }
 
 TEST_CASE("lens: sweeps start every period after the order") {
     const auto lens = LensModel().told({0.0_D, 0.0_D, 2.0_D, 50.0_Hz, 0.0_s}, 1'000);
-    CHECK(lens.nextSweepStart_ns(0) == 1'000);
-    CHECK(lens.nextSweepStart_ns(1'000) == 1'000);
-    CHECK(lens.nextSweepStart_ns(1'001) == 20'001'000);
-    CHECK(lens.nextSweepStart_ns(20'001'000) == 20'001'000);
+    CHECK(lens.nextSweepStartNs(0) == 1'000);
+    CHECK(lens.nextSweepStartNs(1'000) == 1'000);
+    CHECK(lens.nextSweepStartNs(1'001) == 20'001'000);
+    CHECK(lens.nextSweepStartNs(20'001'000) == 20'001'000);
 }
 
 }  // namespace ilf::devices

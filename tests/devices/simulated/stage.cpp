@@ -66,10 +66,10 @@ TEST_CASE("stage: an evening without faults never touches wave or slot rate unde
 TEST_CASE("stage: the same wave is swapped within a sweep, without steady light between") {
     VirtualStage stage;
     REQUIRE(played(stage, test::program(1)));
-    const auto before = stage.port.now_ns();
+    const auto before = stage.port.nowNs();
     const auto orders = stage.port.log.size();
     REQUIRE(played(stage, test::program(2)));
-    CHECK(stage.port.now_ns() - before <= 16'666'667);
+    CHECK(stage.port.nowNs() - before <= 16'666'667);
     CHECK(std::find(stage.port.log.begin() + static_cast<std::ptrdiff_t>(orders), stage.port.log.end(),
                     "steady light") == stage.port.log.end());
     CHECK(stage.state().hashShown == contentHash(test::program(2)));
@@ -95,7 +95,7 @@ TEST_CASE("stage: a dab uploads one tile; a projector that forgot gets the whole
     const auto before = stage.state().tilesReceived;
     REQUIRE(stage.load(test::dabbed(test::program(1), 8)));
     CHECK(stage.state().tilesReceived == before + 1);
-    stage.port.machine = Machine(stage.port.now_ns());
+    stage.port.machine = Machine(stage.port.nowNs());
     REQUIRE(stage.load(test::dabbed(test::program(1), 9)));
     CHECK(stage.state().hashLoaded == contentHash(test::dabbed(test::program(1), 9)));
 }
@@ -104,12 +104,12 @@ TEST_CASE("stage: a heartbeat notices devices that do something else than they w
     VirtualStage stage;
     REQUIRE(played(stage, test::program(1)));
     REQUIRE(stage.heartbeat());
-    stage.port.machine.answered(SteadyLight{}, stage.port.now_ns());
+    stage.port.machine.answered(SteadyLight{}, stage.port.nowNs());
     CHECK(stage.heartbeat().error().what ==
           "The projector went to steady light by itself; was it switched off and on?");
     VirtualStage other;
     REQUIRE(played(other, test::program(1)));
-    other.port.machine.answered(SetWaveform{test::program(1, 7.0_D).waveform}, other.port.now_ns());
+    other.port.machine.answered(SetWaveform{test::program(1, 7.0_D).waveform}, other.port.nowNs());
     CHECK(other.heartbeat().error().what == "The lens does something else than it was told; was its driver restarted?");
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("stage: safe light rests the lens at the wearer's resting power") {
     VirtualStage stage;
     REQUIRE(played(stage, program));
     stage.safeLight();
-    stage.port.waitUntil(stage.port.now_ns() + 200'000'000);
+    stage.port.waitUntil(stage.port.nowNs() + 200'000'000);
     CHECK(stage.state().powerNow.si() == doctest::Approx(1.5).epsilon(1e-6));
     CHECK(stage.report().lens == LensMode::rest);
     REQUIRE(stage.heartbeat());
