@@ -15,6 +15,7 @@ int run(int argc, char** argv) {
         "light, lens at rest, whenever something fails. The studio starts it by itself.",
         "illuminatedfocus-core"};
     std::string directory = ilf::devices::runtimeDirectory().string();
+    std::string afterFault;
     bool leaveDevices = false, stop = false, status = false, player = false, devices = false;
     options.add_option("--runtime-dir", directory, "Where sockets and locks are")->capture_default_str();
     options.add_flag("--leave-devices", leaveDevices, "Leave the simulated devices on when stopping");
@@ -22,6 +23,7 @@ int run(int argc, char** argv) {
     auto* statusFlag = options.add_flag("--status", status, "Print what core and devices say, as one line of JSON");
     auto* playerFlag = options.add_flag("--player", player, "Be the player (its supervisor starts it)");
     auto* devicesFlag = options.add_flag("--devices", devices, "Be the simulated lens and projector");
+    options.add_option("--after-fault", afterFault, "With --player: why the one before it ended")->needs(playerFlag);
     stopFlag->excludes(statusFlag)->excludes(playerFlag)->excludes(devicesFlag);
     statusFlag->excludes(playerFlag)->excludes(devicesFlag);
     playerFlag->excludes(devicesFlag);
@@ -37,7 +39,7 @@ int run(int argc, char** argv) {
         std::fprintf(stderr, "%s\n", ready.error().what.c_str());
         return 3;
     }
-    if (player) return ilf::app::runPlayer(directory);
+    if (player) return ilf::app::runPlayer(directory, afterFault);
     if (devices) return ilf::app::runDevices(directory);
     return ilf::app::runSupervisor(directory, leaveDevices);
 }

@@ -15,9 +15,12 @@ enum ExitCode : int {
 
 inline int exitCode(const Error& error) {
     switch (error.fault) {
-    case Fault::device: return kDevice;
-    case Fault::unsafe: return kUnsafePlan;
-    default: return kFailed;
+    case Fault::device:
+        return kDevice;
+    case Fault::unsafe:
+        return kUnsafePlan;
+    default:
+        return kFailed;
     }
 }
 

@@ -63,8 +63,8 @@ Result<OpenedScene> openScene(const std::string& path, const projects::ProjectEx
 
 Result<OpenedFile> openAny(const std::string& path) {
     std::error_code error;
-    const bool project = fs::is_directory(path, error) || fs::path(path).filename() == "project.json" ||
-                         startsLikeArchive(path);
+    const bool project =
+        fs::is_directory(path, error) || fs::path(path).filename() == "project.json" || startsLikeArchive(path);
     OpenedFile opened;
     if (project) {
         auto found = projects::openProject(path);

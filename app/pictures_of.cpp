@@ -21,7 +21,8 @@ Image<std::uint8_t> overlayPicture(const Document& document) {
                 for (int x = column * kTile; x < std::min((column + 1) * kTile, size.width); ++x) {
                     const auto* mark = &marks[static_cast<std::size_t>((y % kTile) * kTile + x % kTile) * 4];
                     auto* pixel = &rgb[(static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
-                                        static_cast<std::size_t>(x)) * 3];
+                                        static_cast<std::size_t>(x)) *
+                                       3];
                     for (int c = 0; c < 3; ++c) {
                         pixel[c] = static_cast<std::uint8_t>((pixel[c] * (255 - mark[3]) + mark[c] * mark[3]) / 255);
                     }

@@ -16,9 +16,8 @@ namespace {
 
 using namespace ilf::app;
 
-constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 failed, 2 usage, 3 device, 4 unsafe plan.\n"
-    "All output is simulated: no lens or projector driver is part of this version.";
+constexpr const char* kFooter = "Exit codes: 0 done, 1 failed, 2 usage, 3 device, 4 unsafe plan.\n"
+                                "All output is simulated: no lens or projector driver is part of this version.";
 
 void addPlan(CLI::App& app, PlanOptions& options) {
     auto* plan = app.add_subcommand("plan", "What the lens must do: sweep, levels, slots, and what cannot be blurred");
@@ -34,7 +33,9 @@ void addRender(CLI::App& app, RenderOptions& options) {
     auto* render = app.add_subcommand("render", "One view of a project as a PNG");
     render->add_option("FILE", options.file, "Project, picture or video")->required();
     render->add_option("--view", options.view, "camera, perceived, slot:N or overlay")->capture_default_str();
-    render->add_option("--eye", options.eye, "left or right")->check(CLI::IsMember({"left", "right"}))->capture_default_str();
+    render->add_option("--eye", options.eye, "left or right")
+        ->check(CLI::IsMember({"left", "right"}))
+        ->capture_default_str();
     render->add_flag("--reference", options.reference, "Perceived view by brute force: rays through the pupil; slow");
     render->add_option("--samples", options.samples, "Rays a pixel for --reference")
         ->check(CLI::Range(1, 65536))
@@ -45,7 +46,9 @@ void addRender(CLI::App& app, RenderOptions& options) {
 void addRun(CLI::App& app, RunOptions& options) {
     auto* run = app.add_subcommand("run", "Plan, compile and play on a simulated core, then read back what it showed");
     run->add_option("FILE", options.file, "Project, picture or video")->required();
-    run->add_option("--seconds", options.seconds, "How long to play")->check(CLI::Range(0.0, 86400.0))->capture_default_str();
+    run->add_option("--seconds", options.seconds, "How long to play")
+        ->check(CLI::Range(0.0, 86400.0))
+        ->capture_default_str();
     run->add_option("--report", options.report, "JSON report to write");
     run->add_option("--pictures", options.pictures, "Directory for the views and slot images");
 }

@@ -12,9 +12,12 @@ namespace ilf::app {
 
 inline const char* word(Look look) {
     switch (look) {
-    case Look::focus: return "focus";
-    case Look::blur: return "blur";
-    case Look::neutral: return "neutral";
+    case Look::focus:
+        return "focus";
+    case Look::blur:
+        return "blur";
+    case Look::neutral:
+        return "neutral";
     }
     return "focus";
 }

@@ -29,8 +29,8 @@ Result<PlanObject> parsedObject(const std::string& text) {
     if (!metres) return fail(Fault::outOfRange, help);
     PlanObject object;
     object.name = text.substr(0, middle);
-    const auto fits = checked(Distance(ConstantDistance{Metre::fromSi(*metres), {}}),
-                              "the distance of \"" + object.name + "\"");
+    const auto fits =
+        checked(Distance(ConstantDistance{Metre::fromSi(*metres), {}}), "the distance of \"" + object.name + "\"");
     if (!fits) return tl::unexpected(fits.error());
     object.id = object.name;
     object.look = *look;
@@ -80,7 +80,8 @@ Result<PlanInput> inputOf(const PlanOptions& options) {
 
 int planCommand(const PlanOptions& options) {
     if (options.file.empty() == options.objects.empty()) {
-        return refuse({Fault::outOfRange, "give either a FILE or objects: --object NAME,DISTANCE_M,focus|blur."}, kUsage);
+        return refuse({Fault::outOfRange, "give either a FILE or objects: --object NAME,DISTANCE_M,focus|blur."},
+                      kUsage);
     }
     const auto input = inputOf(options);
     if (!input) return refuse(input.error(), options.file.empty() ? kUsage : exitCode(input.error()));

@@ -13,7 +13,7 @@ struct PlanOptions {
     std::string file;
     std::vector<std::string> objects;  ///< "NAME,DISTANCE_M,focus|blur|neutral"
     std::optional<double> alpha_D;
-    std::string coc;                   ///< 1arcmin, dof, landolt, or metres; empty: the project's, or 1arcmin
+    std::string coc;  ///< 1arcmin, dof, landolt, or metres; empty: the project's, or 1arcmin
     bool json = false;
 };
 

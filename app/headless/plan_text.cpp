@@ -39,7 +39,8 @@ std::string planText(const Plan& plan) {
         if (!region.problem.empty()) out += "    problem: " + region.problem + "\n";
         if (!region.help.empty()) out += "    help: " + region.help + "\n";
     }
-    for (const std::string& warning : plan.warnings) out += "warning: " + warning + "\n";
+    for (const std::string& warning : plan.warnings)
+        out += "warning: " + warning + "\n";
     if (!out.empty() && out.back() == '\n') out.pop_back();
     return out;
 }

@@ -58,7 +58,8 @@ int renderCommand(const RenderOptions& options) {
     if (!project) return refused("render", project.error());
     const auto picture = pictureOf(project->compiled, options);
     if (!picture) return refused("render", picture.error());
-    if (const auto written = projects::writePng(options.out, *picture); !written) return refused("render", written.error());
+    if (const auto written = projects::writePng(options.out, *picture); !written)
+        return refused("render", written.error());
     std::cout << options.out << ": " << options.view
               << (options.view == "perceived" ? ", " + options.eye + " eye, simulated" : "")
               << (options.reference && options.view == "perceived" ? " by brute force" : "") << ", " << picture->width()

@@ -9,8 +9,8 @@ struct RenderOptions {
     std::string file;
     std::string view = "perceived";  ///< camera, perceived, slot:N, overlay
     std::string eye = "left";
-    bool reference = false;          ///< perceived by brute force
-    int samples = 256;               ///< points of the pupil a pixel, for the reference
+    bool reference = false;  ///< perceived by brute force
+    int samples = 256;       ///< points of the pupil a pixel, for the reference
     std::string out;
 };
 

@@ -28,7 +28,8 @@ Result<std::vector<std::string>> writePictures(const Compiled& compiled, const f
     std::error_code error;
     fs::create_directories(directory, error);
     if (error) {
-        return fail(Fault::cannotWrite, "The directory " + directory.string() + " can not be made: " + error.message() + ".");
+        return fail(Fault::cannotWrite,
+                    "The directory " + directory.string() + " can not be made: " + error.message() + ".");
     }
     std::vector<std::string> names;
     const auto write = [&](const std::string& name, const Image<std::uint8_t>& picture) -> Result<void> {
@@ -139,16 +140,18 @@ int runCommand(const RunOptions& options) {
         std::ofstream file(options.report);
         file << report.dump(2) << '\n';
         if (!file.flush()) {
-            return refused("run", {Fault::cannotWrite, "The report " + options.report + " can not be written: check the "
-                                                       "directory and the space left."});
+            return refused("run", {Fault::cannotWrite, "The report " + options.report +
+                                                           " can not be written: check the "
+                                                           "directory and the space left."});
         }
     }
     std::cout << planText(project->compiled.plan) << '\n'
               << "Played " << played->sweeps << " sweeps on the simulated devices; first light "
               << played->sentToSwapped_ms << " ms after it was sent.\n";
     if (played->state.hashShown != contentHash(program)) {
-        return refused("run", {Fault::device, "The devices show another program than the one that was sent; nothing "
-                                              "about this run can be trusted. Run it again, and report it if it stays."});
+        return refused("run",
+                       {Fault::device, "The devices show another program than the one that was sent; nothing "
+                                       "about this run can be trusted. Run it again, and report it if it stays."});
     }
     return kDone;
 }

@@ -24,7 +24,8 @@ Result<std::unique_ptr<SimulatedCore>> SimulatedCore::start(const std::string& c
                                             std::filesystem::temp_directory_path().string() + ".");
     }
     auto core = std::unique_ptr<SimulatedCore>(new SimulatedCore(coreProgram, name));
-    if (const auto started = devices::ensureCoreRunning(coreProgram, name); !started) return tl::unexpected(started.error());
+    if (const auto started = devices::ensureCoreRunning(coreProgram, name); !started)
+        return tl::unexpected(started.error());
     return core;
 }
 
@@ -32,7 +33,8 @@ SimulatedCore::SimulatedCore(std::string coreProgram, std::filesystem::path dire
     : coreProgram_(std::move(coreProgram)), directory_(std::move(directory)) {}
 
 SimulatedCore::~SimulatedCore() {
-    const std::string stop = "'" + coreProgram_ + "' --runtime-dir '" + directory_.string() + "' --stop >/dev/null 2>&1";
+    const std::string stop =
+        "'" + coreProgram_ + "' --runtime-dir '" + directory_.string() + "' --stop >/dev/null 2>&1";
     (void)std::system(stop.c_str());
     std::error_code ignored;
     std::filesystem::remove_all(directory_, ignored);
@@ -67,8 +69,8 @@ Result<Played> SimulatedCore::play(const Program& program, std::chrono::duration
     const auto state = client.readState();
     if (!state) return tl::unexpected(state.error());
     played.state = *state;
-    played.sweeps = std::lround(static_cast<double>(state->now_ns - link.status().swapped_ns) * 1e-9 *
-                                program.waveform.rate.si());
+    played.sweeps =
+        std::lround(static_cast<double>(state->now_ns - link.status().swapped_ns) * 1e-9 * program.waveform.rate.si());
     return played;
 }
 

@@ -20,7 +20,8 @@ int validateCommand(const std::string& file) {
         if (!region.help.empty()) std::cout << ' ' << region.help;
         std::cout << '\n';
     }
-    for (const std::string& warning : plan.warnings) std::cout << "warning: " << warning << '\n';
+    for (const std::string& warning : plan.warnings)
+        std::cout << "warning: " << warning << '\n';
     std::cout << file << ": " << plan.regions.size() << " surfaces, " << plan.levels.size() << " levels, " << problems
               << " problems, " << plan.warnings.size() << " warnings\n";
     return problems == 0 ? kDone : kFailed;

@@ -13,9 +13,9 @@ namespace {
 
 // Half of what a device may stay silent before the studio would call it gone.
 constexpr std::chrono::milliseconds kHeartbeat{100};
-// Another sweep starts in steady light: slots, steady, slots. A region dragged live would ask for one with every update,
-// and the room would flicker at 10-15 Hz, inside the 3-30 Hz that photosensitive people must be spared. One start a
-// second stays far below; until then the program before plays on.
+// Another sweep starts in steady light: slots, steady, slots. A region dragged live would ask for one with every
+// update, and the room would flicker at 10-15 Hz, inside the 3-30 Hz that photosensitive people must be spared. One
+// start a second stays far below; until then the program before plays on.
 constexpr std::int64_t kBetweenSweepStarts_ns = 1'000'000'000;
 
 }  // namespace
@@ -56,7 +56,8 @@ void Player::run(const std::stop_token& stop) {
                 stage_->safeLight();
             }
             if (order && *order && std::exchange(deferred_, std::nullopt)) ++replaced_;
-            if (!(order && *order) && deferred_ && !startsTooSoon(*deferred_)) order = std::exchange(deferred_, std::nullopt);
+            if (!(order && *order) && deferred_ && !startsTooSoon(*deferred_))
+                order = std::exchange(deferred_, std::nullopt);
             if (order && *order)
                 obey(**order);
             else

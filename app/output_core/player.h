@@ -61,8 +61,8 @@ private:
     std::uint64_t lastHold_;
     std::uint64_t refused_ = 0;  ///< orders that came while safe light was held
     bool well_ = false;
-    std::optional<Order> deferred_;       ///< waits until another sweep may start
-    std::optional<Waveform> playing_;     ///< of the program on show
+    std::optional<Order> deferred_;    ///< waits until another sweep may start
+    std::optional<Waveform> playing_;  ///< of the program on show
     Hertz slotRate_;
     std::int64_t sweepStarted_ns_ = 0;
     devices::Status status_;

@@ -54,7 +54,8 @@ int runPlayer(const std::filesystem::path& runtimeDirectory, const std::string& 
     }
     const int wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     {
-        Player player(std::make_unique<ConnectedStage>(runtimeDirectory), [wake] { eventfd_write(wake, 1); }, afterFault);
+        Player player(
+            std::make_unique<ConnectedStage>(runtimeDirectory), [wake] { eventfd_write(wake, 1); }, afterFault);
         StudioLink link(*std::move(server), player);
         spdlog::info("player started in safe light");
         while (signals.arrived(0).empty()) {

@@ -137,8 +137,8 @@ private:
             // The player goes, in safe light, when this process is killed; also if that happened a moment ago.
             prctl(PR_SET_PDEATHSIG, SIGTERM);
             if (getppid() != self) _exit(1);
-            execl(executable.c_str(), executable.c_str(), "--player", "--runtime-dir", directory.c_str(), "--after-fault",
-                  afterFault_.c_str(), nullptr);
+            execl(executable.c_str(), executable.c_str(), "--player", "--runtime-dir", directory.c_str(),
+                  "--after-fault", afterFault_.c_str(), nullptr);
             _exit(127);
         }
         player_ = child;

@@ -33,7 +33,8 @@ void CameraPort::close() {
 
 void CameraPort::lookAround() {
     ids_.clear();
-    for (const devices::CameraEntry& entry : devices::listCameras()) ids_.push_back(entry.id);
+    for (const devices::CameraEntry& entry : devices::listCameras())
+        ids_.push_back(entry.id);
 }
 
 bool CameraPort::collect() {
@@ -45,11 +46,12 @@ bool CameraPort::collect() {
 }
 
 Result<Scene> CameraPort::grabbed() const {
-    if (!camera_) return fail(Fault::notFound, "There is no camera to grab from: open one first (Scene > Open camera).");
+    if (!camera_)
+        return fail(Fault::notFound, "There is no camera to grab from: open one first (Scene > Open camera).");
     const devices::CameraState state = camera_->state();
     if (!frame_) {
-        return fail(Fault::device, state.trouble.empty() ? "The camera has not given a frame yet: wait a moment."
-                                                         : state.trouble);
+        return fail(Fault::device,
+                    state.trouble.empty() ? "The camera has not given a frame yet: wait a moment." : state.trouble);
     }
     if (state.frozen && !video_) {
         return fail(Fault::device, "\"" + state.name + "\" is frozen: what it shows is old. Plug it in again.");

@@ -16,9 +16,9 @@ inline ui::CoreStatus coreView(const devices::Status& status, const std::string&
     ui::CoreStatus view;
     view.connected = status.connected;
     view.simulated = status.simulated;
-    view.light = !status.connected                               ? ui::Light::unknown
+    view.light = !status.connected                             ? ui::Light::unknown
                  : status.light == devices::LightMode::slotted ? ui::Light::slotted
-                                                                 : ui::Light::steady;
+                                                               : ui::Light::steady;
     view.revisionPlayed = status.revisionPlayed;
     view.revisionSent = sent;
     view.swaps = status.swaps;

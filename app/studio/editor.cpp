@@ -39,8 +39,10 @@ void Editor::redo() {
 }
 
 void Editor::goTo(std::size_t step) {
-    while (history_.position() > step && history_.canUndo()) undo();
-    while (history_.position() < step && history_.canRedo()) redo();
+    while (history_.position() > step && history_.canUndo())
+        undo();
+    while (history_.position() < step && history_.canRedo())
+        redo();
 }
 
 void Editor::replace(Document document) {

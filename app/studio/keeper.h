@@ -26,9 +26,9 @@ public:
     explicit Keeper(std::function<void()> onNews);
     ~Keeper();
 
-    /// Another project is shown (a recovered one counts as unsaved); `revision` is History::revision of its first state.
-    /// `leftUnsaved` is the project it replaces if that was not saved: its autosave stays, and is offered for recovery
-    /// at the next start.
+    /// Another project is shown (a recovered one counts as unsaved); `revision` is History::revision of its first
+    /// state. `leftUnsaved` is the project it replaces if that was not saved: its autosave stays, and is offered for
+    /// recovery at the next start.
     void opened(const OpenedFile& file, std::size_t revision, const Document* leftUnsaved);
     const std::string& projectPath() const { return path_; }
     const projects::ProjectExtras& extras() const { return extras_; }
@@ -71,9 +71,9 @@ private:
 
     std::string path_;
     projects::ProjectExtras extras_;
-    std::optional<Document> saved_;        ///< as it was when last opened or saved; nothing: never
+    std::optional<Document> saved_;  ///< as it was when last opened or saved; nothing: never
     std::size_t autosavedRevision_ = 0;
-    std::uint64_t project_ = 0;            ///< counts projects shown: late news of another one is only said
+    std::uint64_t project_ = 0;  ///< counts projects shown: late news of another one is only said
     bool crashedLately_ = false;
     double savedAt_s_ = -1.0, autosavedAt_s_ = 0.0;
     std::vector<ui::RecentFile> recent_;
@@ -94,7 +94,7 @@ private:
     std::condition_variable_any arrived_;
     std::deque<std::function<void()>> tasks_;
     std::vector<News> news_;
-    bool working_ = false;                 ///< guarded by mutex_
+    bool working_ = false;  ///< guarded by mutex_
     std::condition_variable idle_;
     std::jthread thread_;  // last: finishes what was asked before it goes
 };

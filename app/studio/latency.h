@@ -12,7 +12,8 @@ class Latency {
 public:
     void sent(std::uint64_t revision, std::int64_t stroke_ns) {
         waiting_.push_back({revision, stroke_ns});
-        while (waiting_.size() > kRemembered) waiting_.pop_front();
+        while (waiting_.size() > kRemembered)
+            waiting_.pop_front();
     }
     /// The core plays `revision` since `swapped_ns`.
     void played(std::uint64_t revision, std::int64_t swapped_ns) {

@@ -14,9 +14,7 @@ constexpr std::chrono::seconds kGone{2};
 }  // namespace
 
 Link::Link(std::string coreProgram, std::filesystem::path runtimeDirectory, std::function<void()> onNews)
-    : coreProgram_(std::move(coreProgram)),
-      runtimeDirectory_(std::move(runtimeDirectory)),
-      onNews_(std::move(onNews)),
+    : coreProgram_(std::move(coreProgram)), runtimeDirectory_(std::move(runtimeDirectory)), onNews_(std::move(onNews)),
       thread_([this](std::stop_token stop) { run(stop); }) {}
 
 void Link::send(Sending sending) {

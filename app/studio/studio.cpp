@@ -75,14 +75,8 @@ Result<std::unique_ptr<Studio>> Studio::start(const StudioOptions& options) {
 }
 
 Studio::Studio(StudioOptions options, std::unique_ptr<Window> window, OpenedFile opened)
-    : options_(std::move(options)),
-      window_(std::move(window)),
-      editor_(opened.document),
-      keeper_(&Window::wake),
-      camera_(&Window::wake),
-      selector_(&Window::wake),
-      changedAt_(Clock::now()),
-      worker_(&Window::wake),
+    : options_(std::move(options)), window_(std::move(window)), editor_(opened.document), keeper_(&Window::wake),
+      camera_(&Window::wake), selector_(&Window::wake), changedAt_(Clock::now()), worker_(&Window::wake),
       link_(options_.coreProgram, devices::runtimeDirectory(), &Window::wake) {
     if (!options_.resetLayout) ui_ = ui::withLayout(ui_, keeper_.layoutText());
     ui_.mode = startMode(options_.view);
@@ -145,8 +139,10 @@ void Studio::collect() {
     if (auto done = worker_.tryTake()) takeDone(*std::move(done));
     if (auto news = link_.tryTake()) takeNews(*std::move(news));
     if (camera_.collect()) takeFrame();
-    for (const std::string& sentence : camera_.takeSentences()) say(sentence, ui::Tone::warning);
-    for (const auto& [sentence, well] : keeper_.takeSentences()) say(sentence, well ? ui::Tone::note : ui::Tone::error);
+    for (const std::string& sentence : camera_.takeSentences())
+        say(sentence, ui::Tone::warning);
+    for (const auto& [sentence, well] : keeper_.takeSentences())
+        say(sentence, well ? ui::Tone::note : ui::Tone::error);
     if (auto found = selector_.tryTake()) {
         const Region* region = findRegion(editor_.document(), found->region);
         if (!found->mask) {
@@ -267,7 +263,8 @@ void Studio::sendIfDue() {
     // From the stroke, or from TAKE when that came later.
     const auto asked = taking ? std::max(done_.strokeAt, takeAt_) : done_.strokeAt;
     if (done_.serial != sentSerial_ || taking) {
-        latency_.sent(revision_, std::chrono::duration_cast<std::chrono::nanoseconds>(asked.time_since_epoch()).count());
+        latency_.sent(revision_,
+                      std::chrono::duration_cast<std::chrono::nanoseconds>(asked.time_since_epoch()).count());
     }
     sentSerial_ = done_.serial;
     link_.send({sent_, revision_, taking ? devices::Why::take : devices::Why::live, takeHold_});
@@ -280,7 +277,8 @@ ui::View Studio::view() const {
     view.undoLabel = history.undoLabel();
     view.redoLabel = history.redoLabel();
     view.historyPosition = history.position();
-    for (std::size_t i = 0; i < history.steps(); ++i) view.historyLabels.push_back(history.labelAt(i));
+    for (std::size_t i = 0; i < history.steps(); ++i)
+        view.historyLabels.push_back(history.labelAt(i));
     pictures_.fill(view);
 
     ui::Computed& computed = view.computed;

@@ -31,7 +31,7 @@ private:
     Studio(StudioOptions options, std::unique_ptr<Window> window, OpenedFile opened);
 
     void frame();
-    void collect();                       ///< takes what threads have finished
+    void collect();  ///< takes what threads have finished
     void takeDone(Done done);
     void takeNews(LinkNews news);
     void takeFrame();
@@ -42,7 +42,7 @@ private:
     bool mayClose();
     void showTitle();
     double now_s() const;
-    int editsSinceTake() const;           ///< 0: what plays is what is painted
+    int editsSinceTake() const;  ///< 0: what plays is what is painted
 
     // One for each request of ui/request.h.
     void on(const ui::EditRequest& request);
@@ -61,14 +61,14 @@ private:
     void on(const ui::LoadDepthMap& request);
     void on(const ui::Recover& request);
 
-    void show(OpenedFile opened);         ///< another project altogether
+    void show(OpenedFile opened);  ///< another project altogether
     void setScene(Scene scene);
     void take();
     void forgetTake();
     void sendIfDue();
     void save(const std::string& path);
     void grab();
-    void edit(const Edit& edit);          ///< a whole gesture in one
+    void edit(const Edit& edit);  ///< a whole gesture in one
 
     StudioOptions options_;
     std::unique_ptr<Window> window_;
@@ -80,33 +80,33 @@ private:
     Selector selector_;
     Latency latency_;
 
-    Done done_;                           ///< the newest of the worker
+    Done done_;  ///< the newest of the worker
     std::uint64_t postedSerial_ = 0;
     ui::Wants posted_;
     bool postedDragging_ = false;
     Clock::time_point startedAt_ = Clock::now();
     double frame_ms_ = 0.0, swap_ms_ = 0.0;  ///< own share of a frame, and the driver's
-    Clock::time_point changedAt_;         ///< when what is shown last changed
+    Clock::time_point changedAt_;            ///< when what is shown last changed
     std::uint64_t seenSerial_ = 0;
 
     devices::Status core_;
     std::string linkTrouble_;
     std::uint64_t faultsSeen_ = 0;
-    std::uint64_t revision_ = 0;          ///< of the last program sent
+    std::uint64_t revision_ = 0;               ///< of the last program sent
     std::optional<std::uint64_t> takeSerial_;  ///< a take waits for the program of this serial
-    std::uint64_t takeHold_ = 0;          ///< the safe light it may end: the one that was held when it was asked for
+    std::uint64_t takeHold_ = 0;  ///< the safe light it may end: the one that was held when it was asked for
     Clock::time_point takeAt_;
     std::uint64_t sentHash_ = 0, sentSerial_ = 0;
-    std::uint64_t doneHash_ = 0;          ///< content of done_.compiled's program
-    bool playAtStart_ = false;            ///< a project that was named at the start plays once the core is there
+    std::uint64_t doneHash_ = 0;  ///< content of done_.compiled's program
+    bool playAtStart_ = false;    ///< a project that was named at the start plays once the core is there
     std::shared_ptr<const Compiled> sent_;
-    std::size_t takenRevision_ = 0;       ///< History::revision at the last take
+    std::size_t takenRevision_ = 0;  ///< History::revision at the last take
     bool liveTake_ = false;
     bool closing_ = false;
     std::string title_;
-    int quietFrames_ = 0;                 ///< frames since anything happened: then the loop may wait
+    int quietFrames_ = 0;  ///< frames since anything happened: then the loop may wait
 
-    Worker worker_;                       // threads: after all they wake
+    Worker worker_;  // threads: after all they wake
     Link link_;
 };
 

@@ -154,7 +154,8 @@ void Studio::on(const ui::ExportView& request) {
         if (!seen) return say(seen.error().what, ui::Tone::error);
         picture = toSrgb8(*seen);
     } else {
-        return say("There is no view to export yet: " + (done_.refusal ? done_.refusal->what : "it is being worked out."),
+        return say("There is no view to export yet: " +
+                       (done_.refusal ? done_.refusal->what : "it is being worked out."),
                    ui::Tone::warning);
     }
     const auto written = projects::writePng(request.path, picture);
@@ -162,9 +163,7 @@ void Studio::on(const ui::ExportView& request) {
         written ? ui::Tone::note : ui::Tone::error);
 }
 
-void Studio::on(const ui::OpenCamera& request) {
-    camera_.openLive(request.id);
-}
+void Studio::on(const ui::OpenCamera& request) { camera_.openLive(request.id); }
 
 void Studio::on(const ui::SeekVideo& request) { camera_.seek(request.position); }
 

@@ -22,7 +22,8 @@ constexpr double kSeamReach = 0.05;
 
 }  // namespace
 
-Worker::Worker(std::function<void()> onDone) : onDone_(std::move(onDone)), thread_([this](std::stop_token s) { run(s); }) {}
+Worker::Worker(std::function<void()> onDone)
+    : onDone_(std::move(onDone)), thread_([this](std::stop_token s) { run(s); }) {}
 
 void Worker::run(std::stop_token stop) {
     while (auto job = jobs_.take(stop)) {

@@ -21,13 +21,13 @@ using Clock = std::chrono::steady_clock;
 
 /// What to work out, newest wins. Equal parts are not worked out again.
 struct Job {
-    std::uint64_t serial = 0;          ///< Editor::serial of the document
+    std::uint64_t serial = 0;  ///< Editor::serial of the document
     Document document;
-    bool dragging = false;             ///< a gesture is going on: the view may be coarse
-    std::array<bool, 2> eyes{};        ///< perceived views that are on screen, left and right
-    bool plain = false;                ///< the plain view is on screen
+    bool dragging = false;                     ///< a gesture is going on: the view may be coarse
+    std::array<bool, 2> eyes{};                ///< perceived views that are on screen, left and right
+    bool plain = false;                        ///< the plain view is on screen
     std::optional<Point<CameraFrame>> cursor;  ///< for the seam profile
-    Clock::time_point strokeAt;        ///< when the operator made the edit
+    Clock::time_point strokeAt;                ///< when the operator made the edit
 };
 
 /// An sRGB picture ready to be uploaded, 3 channels.
@@ -37,13 +37,13 @@ using ViewPicture = Image<std::uint8_t>;
 struct Done {
     std::uint64_t serial = 0;
     Clock::time_point strokeAt;
-    std::optional<Error> refusal;                ///< no plan or no program, and why
-    std::shared_ptr<const Compiled> compiled;    ///< of this serial, unless refused
-    std::array<ViewPicture, 2> perceived;        ///< empty: not asked for, or still to come
+    std::optional<Error> refusal;              ///< no plan or no program, and why
+    std::shared_ptr<const Compiled> compiled;  ///< of this serial, unless refused
+    std::array<ViewPicture, 2> perceived;      ///< empty: not asked for, or still to come
     ViewPicture plain;
     std::optional<SeamProfile> seam;
     double plan_ms = 0.0, compile_ms = 0.0, view_ms = 0.0;
-    std::string rung;                            ///< quality of the views: "dragging", "at rest"
+    std::string rung;  ///< quality of the views: "dragging", "at rest"
     bool viewsDone = false;
 };
 

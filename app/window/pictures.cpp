@@ -66,7 +66,8 @@ void Pictures::show(const Document& document, const RegionId& selected) {
 }
 
 void Pictures::show(const Done& done, bool lights) {
-    for (std::size_t eye = 0; eye < 2; ++eye) uploadIfNew(perceived_[eye], shownPerceived_[eye], done.perceived[eye], true);
+    for (std::size_t eye = 0; eye < 2; ++eye)
+        uploadIfNew(perceived_[eye], shownPerceived_[eye], done.perceived[eye], true);
     uploadIfNew(plain_, shownPlain_, done.plain, true);
     if (!lights || !done.compiled) return;
     const auto& images = done.compiled->program.images;
@@ -85,8 +86,10 @@ void Pictures::fill(ui::View& view) const {
     view.overlay = overlay_.handle();
     view.live = live_.handle();
     view.plain = plain_.handle();
-    for (std::size_t eye = 0; eye < 2; ++eye) view.perceived[eye] = perceived_[eye].handle();
-    for (const GlTexture& light : lights_) view.lights.push_back(light.handle());
+    for (std::size_t eye = 0; eye < 2; ++eye)
+        view.perceived[eye] = perceived_[eye].handle();
+    for (const GlTexture& light : lights_)
+        view.lights.push_back(light.handle());
 }
 
 }  // namespace ilf::app

@@ -88,7 +88,8 @@ void Window::installCallbacks() {
         (action == GLFW_RELEASE ? owner(w).input_.released : owner(w).input_.pressed).push_back(press);
     });
     glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
-        for (int i = 0; i < count; ++i) owner(w).dropped_.emplace_back(paths[i]);
+        for (int i = 0; i < count; ++i)
+            owner(w).dropped_.emplace_back(paths[i]);
     });
 }
 

@@ -26,7 +26,8 @@ Paint dab(double x) { return {"a", {Dab{{x, 50.0}, Brush{10.0, 1.0, 1.0}}}, Pain
 TEST_CASE("editor: the dabs of one gesture are one undo step") {
     Editor editor = editorWithRegion();
     const Document before = editor.document();
-    for (double x : {40.0, 60.0, 80.0}) REQUIRE(editor.handle({When::preview, dab(x)}));
+    for (double x : {40.0, 60.0, 80.0})
+        REQUIRE(editor.handle({When::preview, dab(x)}));
     CHECK(editor.previewing());
     editor.commitGesture("Paint");
     const Document after = editor.document();

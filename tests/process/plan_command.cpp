@@ -34,9 +34,8 @@ TEST_CASE("plan: the paper's second condition is driven by A at 0.25 m") {
 }
 
 TEST_CASE("plan: the paper's first condition blurs B alone") {
-    const auto ran = runProgram(ILF_STUDIO_PATH,
-                                "plan --object A,0.25,focus --object B,0.5,blur --object C,0.5,focus "
-                                "--object D,1.3,focus --json");
+    const auto ran = runProgram(ILF_STUDIO_PATH, "plan --object A,0.25,focus --object B,0.5,blur --object C,0.5,focus "
+                                                 "--object D,1.3,focus --json");
     REQUIRE(ran.code == 0);
     CHECK(std::abs(json::parse(ran.out)["P_s_D"].get<double>() - 2.07261643584172) < 1e-12);
 }

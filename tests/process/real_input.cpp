@@ -23,8 +23,8 @@ Paint stroke(const Document& document, const RegionId& region, double share) {
     Paint paint{region, {}, PaintMode::add, false};
     constexpr int kDabs = 24;
     for (int i = 0; i < kDabs; ++i) {
-        paint.dabs.push_back({{size.width * (0.15 + 0.7 * i / kDabs), size.height * share},
-                              Brush{0.08 * size.height, 0.8, 1.0}});
+        paint.dabs.push_back(
+            {{size.width * (0.15 + 0.7 * i / kDabs), size.height * share}, Brush{0.08 * size.height, 0.8, 1.0}});
     }
     return paint;
 }
@@ -59,15 +59,17 @@ void paintAndRun(app::OpenedFile opened, const Distance& sharp, const Distance& 
     const auto saved = projects::saveProject(project, document, opened.extras);
     REQUIRE_MESSAGE(saved.has_value(), (saved ? std::string() : saved.error().what));
 
-    const auto ran = runProgram(ILF_STUDIO_PATH, "run '" + project + "' --seconds 0.2 --report '" + (directory / "r.json") +
-                                                     "' --pictures '" + (directory / "out") + "' 2>&1");
+    const auto ran =
+        runProgram(ILF_STUDIO_PATH, "run '" + project + "' --seconds 0.2 --report '" + (directory / "r.json") +
+                                        "' --pictures '" + (directory / "out") + "' 2>&1");
     REQUIRE_MESSAGE(ran.code == 0, ran.out);
     std::ifstream file(directory / "r.json");
     const json report = json::parse(file);
     CHECK(report["played"]["light"] == "slotted");
     CHECK(report["plan"]["driving_region"] == "soft");
     REQUIRE(report["received"].size() == 16);
-    for (const auto& slot : report["received"]) CHECK(slot["differing_pixels"] == 0);
+    for (const auto& slot : report["received"])
+        CHECK(slot["differing_pixels"] == 0);
 
     // The wearer sees the blurred stroke softer than the plain picture, and the sharp one as it is.
     const auto plain = projects::readPicture(directory / "out/camera.png");
@@ -78,7 +80,8 @@ void paintAndRun(app::OpenedFile opened, const Distance& sharp, const Distance& 
         const int y = static_cast<int>(picture.height() * share);
         double sum = 0.0;
         for (int x = picture.width() / 4; x < picture.width() * 3 / 4; ++x) {
-            for (int dy = -4; dy <= 4; ++dy) sum += std::abs(picture.at(x, y + dy, 1) - picture.at(x - 1, y + dy, 1));
+            for (int dy = -4; dy <= 4; ++dy)
+                sum += std::abs(picture.at(x, y + dy, 1) - picture.at(x - 1, y + dy, 1));
         }
         return sum;
     };

@@ -17,11 +17,13 @@ struct Ran {
 /// `arguments` goes through the shell; `environment` such as "A=b C=d" is put before the program.
 inline Ran runProgram(const std::string& program, const std::string& arguments, const std::string& environment = "") {
     Ran ran;
-    const std::string command = (environment.empty() ? "" : "env " + environment + " ") + "'" + program + "' " + arguments;
+    const std::string command =
+        (environment.empty() ? "" : "env " + environment + " ") + "'" + program + "' " + arguments;
     FILE* pipe = popen(command.c_str(), "r");
     if (pipe == nullptr) return ran;
     std::array<char, 4096> buffer;
-    for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) ran.out.append(buffer.data(), n);
+    for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        ran.out.append(buffer.data(), n);
     const int status = pclose(pipe);
     ran.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
     return ran;

@@ -150,4 +150,41 @@ TEST_CASE("player: of many updates at once the newest is played and the others a
     CHECK(scene.newest.swaps + scene.newest.droppedUpdates == 200);
 }
 
+TEST_CASE("player: sweeps dragged live start at most once a second, and the newest of them is played") {
+    // Each start passes through steady light; more of them would make the room flicker at 3-30 Hz.
+    Scene scene;
+    REQUIRE(scene.until(held));
+    scene.send(1, 1, Why::take);
+    REQUIRE(scene.until([](const Status& s) { return s.revisionPlayed == 1; }));
+    const auto begun = std::chrono::steady_clock::now();
+    std::uint64_t revision = 1, starts = 0, played = 1;
+    while (std::chrono::steady_clock::now() - begun < std::chrono::milliseconds(2500)) {
+        const auto program = test::program(1, Dioptre::fromSi(2.0 + 0.001 * static_cast<double>(++revision)));
+        scene.player->play({program, revision, contentHash(program), Why::live, 0, 1});
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        if (auto status = scene.player->newStatus()) scene.newest = *status;
+        if (scene.newest.revisionPlayed != played) ++starts;
+        played = scene.newest.revisionPlayed;
+    }
+    CHECK(starts >= 1);
+    CHECK(starts <= 3);
+    REQUIRE(scene.until([&](const Status& s) { return s.revisionPlayed == revision; }));
+    CHECK(scene.newest.faults == 0);
+}
+
+TEST_CASE("player: says why the one before it ended, and waits for a take") {
+    auto stage = std::make_unique<devices::VirtualStage>();
+    Player player(std::move(stage), [] {}, "The player before ended.");
+    std::optional<Status> status;
+    for (int i = 0; i < 500 && !status; ++i) {
+        status = player.newStatus();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    REQUIRE(status);
+    CHECK(status->fault == "The player before ended.");
+    CHECK(status->faults == 1);
+    CHECK(status->hold != 0);
+    CHECK(status->light == LightMode::steady);
+}
+
 }  // namespace ilf::app
