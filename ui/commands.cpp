@@ -61,7 +61,7 @@ constexpr auto table = std::to_array<CommandInfo>({
     {C::toolEllipse, "tool.ellipse", "Ellipse", "", plain('O'), none,
      "Drag an ellipse into the region; Alt takes it away."},
     {C::toolPolygon, "tool.polygon", "Polygon", "", plain('P'), none,
-     "Click vertices; Enter or double-click closes, Backspace removes the last."},
+     "Click vertices; Enter closes, Backspace removes the last. In a region of its own they stay editable."},
     {C::toolLasso, "tool.lasso", "Lasso", "", plain('L'), none, "Draw around an area; Alt takes it away."},
     {C::toolSelect, "tool.select", "Select object", "", plain('S'), none,
      "Drag a box around an object: its outline is found in the background."},

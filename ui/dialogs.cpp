@@ -222,8 +222,9 @@ void recoveryDialog(Panel& p) {
         if (ImGui::Button("Open what was saved###saved", {p.px(180), p.px(36)})) choice = Recover::Choice::openSaved;
     }
     ImGui::SameLine();
-    if (ImGui::Button("Not now###skip", {p.px(100), p.px(36)})) choice = Recover::Choice::skip;
-    wrapped("\"Not now\" keeps the recovered work until something newer replaces it.", colour::dim, Font::small);
+    if (ImGui::Button("Leave it###skip", {p.px(100), p.px(36)})) choice = Recover::Choice::skip;
+    wrapped("Work that is left is not asked about again; it stays in the state folder for 30 days.", colour::dim,
+            Font::small);
     if (choice) {
         p.requests.push_back(Recover{*choice});
         ImGui::CloseCurrentPopup();

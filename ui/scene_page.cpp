@@ -94,12 +94,17 @@ void scenePage(Panel& p) {
     ImGui::Dummy({1, p.px(4)});
     heading("DEPTH MAP");
     if (scene.depth) {
-        derivedRow(p, "Scale", formatted(scene.depth->metresPerUnit.si(), Unit::metre) + " per step");
+        const FieldSpec step{Unit::millimetre, 1e-6, 1.0, 0.0,
+                             "How far one step of the depth map's 16-bit values is: 1 mm, 0.1 mm, 0.2 mm (TUM) ..."};
+        if (const auto change = numberRow(p, "One step", "###depthStep", scene.depth->metresPerUnit.si(), step)) {
+            p.edit(change->commits, SetDepthScale{Metre::fromSi(change->value)});
+        }
     }
     if (ImGui::Button("Load depth map...###depth", {-1, 0})) {
         openFileDialog(p.state, FileDialog::Purpose::depthMap, p.view);
     }
-    tooltip("A 16-bit PNG of the picture's size: millimetres from the wearer's lens, 0 where nothing is known.");
+    tooltip("A 16-bit PNG of the picture's size: steps from the wearer's lens (1 mm unless set), 0 where nothing is "
+            "known.");
 }
 
 }  // namespace ilf::ui

@@ -401,13 +401,18 @@ void shortcutKeys(Panel& p) {
     for (const KeyPress& press : p.input.pressed) {
         const Key key{press.key, press.ctrl, press.shift};
         const bool function = press.key >= keys::f1 && press.key < keys::f1 + 25;
+        // Safe light never waits for a modifier to be let go, a dialog to be closed or a text to be finished.
+        if (press.key == info(Command::safeLight).key.key) {
+            if (!press.repeat) p.run(Command::safeLight);
+            continue;
+        }
         if (press.alt || (typing && !function && !press.ctrl)) continue;
         // A text field has its own undo, copy and line ends.
         if (typing && press.ctrl && press.key != keys::letter('S') && press.key != keys::enter) continue;
         if (!press.repeat && !press.ctrl && !press.shift) held(press, true);
         for (const CommandInfo& entry : commands()) {
             if (entry.held || (entry.key != key && entry.otherKey != key)) continue;
-            if (state.popupsOpen && entry.command != Command::safeLight) continue;
+            if (state.popupsOpen) continue;
             if (entry.command == Command::editDistance) {
                 if (!press.repeat) state.distanceHeld = true, state.distanceDragged = false;
                 break;

@@ -57,7 +57,10 @@ int renderCommand(const RenderOptions& options) {
     const auto project = prepared(options.file);
     if (!project) return refused("render", project.error());
     const auto picture = pictureOf(project->compiled, options);
-    if (!picture) return refused("render", picture.error());
+    if (!picture) {
+        const int code = refused("render", picture.error());
+        return picture.error().fault == Fault::outOfRange ? kUsage : code;  // a slot that does not exist
+    }
     if (const auto written = projects::writePng(options.out, *picture); !written)
         return refused("render", written.error());
     std::cout << options.out << ": " << options.view

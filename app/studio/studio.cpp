@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <iostream>
 
 #include "app/exit_code.h"
@@ -60,6 +61,11 @@ void logChange(const devices::Status& before, const devices::Status& now) {
 Result<std::unique_ptr<Studio>> Studio::start(const StudioOptions& options) {
     OpenedFile opened = blankProject();
     std::string trouble;
+    std::error_code ignored;
+    if (!options.file.empty() && !std::filesystem::exists(options.file, ignored)) {
+        return fail(Fault::notFound, "There is no file and no command \"" + options.file +
+                                         "\": name a project, picture or video, or see --help.");
+    }
     if (!options.file.empty()) {
         if (auto file = openAny(options.file)) {
             opened = *std::move(file);
@@ -338,7 +344,7 @@ int runStudio(const StudioOptions& options) {
     auto studio = Studio::start(options);
     if (!studio) {
         std::cerr << "illuminatedfocus: " << studio.error().what << '\n';
-        return exitCode(studio.error());
+        return studio.error().fault == Fault::notFound ? kUsage : exitCode(studio.error());
     }
     return (*studio)->run();
 }

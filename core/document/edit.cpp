@@ -253,6 +253,16 @@ Result<Document> edited(Document document, const Edit& edit) {
             document.alpha = e.alpha;
             return std::move(document);
         },
+        [&](const SetDepthScale& e) -> Result<Document> {
+            if (!document.scene.depth) {
+                return fail(Fault::notFound, "The scene has no depth map: load one before setting its scale.");
+            }
+            if (!isFinite(e.metresPerUnit) || e.metresPerUnit < 1.0_um || e.metresPerUnit > 1.0_m) {
+                return fail(Fault::outOfRange, "A step of the depth map must be 1 \u00b5m to 1 m.");
+            }
+            document.scene.depth = Box(DepthMap{document.scene.depth->raw, e.metresPerUnit});
+            return std::move(document);
+        },
         [&](const SetPixelScale& e) -> Result<Document> {
             if (auto ok = checked(e.scale, document.scene.size()); !ok) return tl::unexpected(ok.error());
             document.scene.scale = e.scale;
@@ -302,6 +312,7 @@ std::string label(const Edit& edit) {
         [](const InvertMask&) { return std::string("Invert"); },
         [](const SetSeam&) { return std::string("Set seam"); },
         [](const SetAlpha&) { return std::string("Set alpha"); },
+        [](const SetDepthScale&) { return std::string("Set depth scale"); },
         [](const SetPixelScale&) { return std::string("Set field of view"); },
         [](const SetScene&) { return std::string("Change picture"); },
         [](const SetWearer&) { return std::string("Set wearer"); },

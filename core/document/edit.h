@@ -95,6 +95,10 @@ struct SetSeam {
 struct SetAlpha {
     Dioptre alpha;
 };
+/// Another unit for the scene's depth map: metres for each step of its raw values.
+struct SetDepthScale {
+    Metre metresPerUnit;
+};
 struct SetPixelScale {
     PixelScale scale;
 };
@@ -112,9 +116,10 @@ struct SetName {
     std::string name;
 };
 
-using Edit = std::variant<AddRegion, RemoveRegion, DuplicateRegion, RenameRegion, MoveRegion, SetLook, SetStrength,
-                          SetDistance, SetVisible, SetLocked, SetSolo, Paint, FillShape, SetOutline, SetMask, GrowMask,
-                          InvertMask, SetSeam, SetAlpha, SetPixelScale, SetScene, SetWearer, SetRig, SetName>;
+using Edit =
+    std::variant<AddRegion, RemoveRegion, DuplicateRegion, RenameRegion, MoveRegion, SetLook, SetStrength, SetDistance,
+                 SetVisible, SetLocked, SetSolo, Paint, FillShape, SetOutline, SetMask, GrowMask, InvertMask, SetSeam,
+                 SetAlpha, SetDepthScale, SetPixelScale, SetScene, SetWearer, SetRig, SetName>;
 
 /// The next document, or why there is none (no such region, locked, a number out of range ...). Arguments are values:
 /// a refusal leaves everything as it was. Looks, strength and distance also take kBackgroundId.

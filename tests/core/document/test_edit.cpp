@@ -214,4 +214,21 @@ TEST_CASE("edit: every edit has words for the undo menu") {
     law("any edit", [] { RC_ASSERT(!label(anyEdit()).empty()); });
 }
 
+TEST_CASE("edit: the depth map's scale is an edit of its own, refused without a map or out of range") {
+    Scene scene;
+    scene.picture = Box(Picture({4, 2}, 3, std::vector<std::uint16_t>(24)));
+    Document document = newDocument(scene);
+    const auto without = edited(document, SetDepthScale{2.0_mm});
+    REQUIRE_FALSE(without);
+    CHECK(without.error().what == "The scene has no depth map: load one before setting its scale.");
+    scene.depth = Box(DepthMap{Image<std::uint16_t>({4, 2}, 1, std::vector<std::uint16_t>(8, 500)), 1.0_mm});
+    document = newDocument(scene);
+    const auto scaled = edited(document, SetDepthScale{0.2_mm});
+    REQUIRE(scaled);
+    CHECK(scaled->scene.depth->metresPerUnit == 0.2_mm);
+    CHECK(scaled->scene.depth->raw.same(document.scene.depth->raw));
+    CHECK_FALSE(edited(document, SetDepthScale{0.0_m}));
+    CHECK_FALSE(edited(document, SetDepthScale{Metre::fromSi(std::nan(""))}));
+}
+
 }  // namespace ilf
