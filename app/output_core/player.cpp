@@ -58,10 +58,10 @@ void Player::run(const std::stop_token& stop) {
             if (order && *order && std::exchange(deferred_, std::nullopt)) ++replaced_;
             if (!(order && *order) && deferred_ && !startsTooSoon(*deferred_))
                 order = std::exchange(deferred_, std::nullopt);
-            if (order && *order)
-                obey(**order);
-            else
-                beat();
+            if (order && *order) obey(**order);
+            // Also between orders that follow fast or wait for their time: the devices watch for a silent player.
+            const bool due = devices::monotonicNs() - heard_ns_ > std::chrono::nanoseconds(kHeartbeat).count();
+            if (!(order && *order) || due) beat();
             say();
         } catch (const std::exception& error) {
             fault(std::string("The output core failed: ") + error.what() + ".");
@@ -112,6 +112,7 @@ void Player::obey(const Order& order) {
     const auto shown = loaded ? stage_->swap() : loaded;
     if (!shown) return fault(shown.error().what);
     well_ = true;
+    heard_ns_ = devices::monotonicNs();
     if (!playing_ || *playing_ != order.program.waveform || slotRate_ != order.program.slotRate) {
         sweepStarted_ns_ = devices::monotonicNs();
     }
@@ -130,6 +131,7 @@ void Player::obey(const Order& order) {
 
 void Player::beat() {
     const auto alive = stage_->heartbeat();
+    heard_ns_ = devices::monotonicNs();
     if (alive) {
         well_ = true;
         return;

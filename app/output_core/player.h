@@ -65,6 +65,7 @@ private:
     std::optional<Waveform> playing_;  ///< of the program on show
     Hertz slotRate_;
     std::int64_t sweepStarted_ns_ = 0;
+    std::int64_t heard_ns_ = 0;  ///< when the devices were last talked to
     devices::Status status_;
     std::jthread thread_;  // last: joins before what it uses goes
 };

@@ -129,6 +129,25 @@ TEST_CASE("safe light is one word, and holds") {
     CHECK(core.deviceState().light == LightMode::slotted);
 }
 
+TEST_CASE("a sweep dragged live, faster than sweeps may start, is no silence to the devices") {
+    const OutputCore core;
+    auto link = core.connected();
+    OutputCore::take(link, program(1), 1);
+    std::uint64_t revision = 1;
+    const auto until = Clock::now() + milliseconds(2200);
+    while (Clock::now() < until) {
+        ++revision;
+        const auto dragged = program(1, Dioptre::fromSi(2.0 + 0.001 * static_cast<double>(revision)));
+        REQUIRE(link.send(dragged, revision, Why::live).has_value());
+        link.poll(milliseconds(10));
+    }
+    CHECK(OutputCore::until(link, seconds(5), [&](const Status& s) { return s.revisionPlayed == revision; }));
+    CHECK(link.status().faults == 0);
+    const auto state = core.deviceState();
+    CHECK_MESSAGE(state.watchdogTrips == 0, words(state));
+    checkOrderKept(state);
+}
+
 TEST_CASE("studios that start at the same time start one core") {
     const OutputCore core;  // for its directory
     kill(core.supervisor(), SIGTERM);
