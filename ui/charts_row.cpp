@@ -162,7 +162,8 @@ void drawSeam(Panel& p) {
         return;
     }
     const SeamChart chart = seamChart(*profile);
-    const std::string summary = "worst " + formatted(chart.worstBefore, Unit::percent) + " \u2192 " +
+    const std::string summary = std::string(profile->depthStep ? "depth step, not blended: " : "worst ") +
+                                formatted(chart.worstBefore, Unit::percent) + " \u2192 " +
                                 formatted(chart.worstAfter, Unit::percent);
     const ChartFrame frame =
         chartFrame(p, p.at.seam, "SEAM  light across the border", summary, chart.across_mm, chart.light, "mm", "");

@@ -50,6 +50,11 @@ void seamPage(Panel& p) {
     if (blurred != nullptr && other != nullptr) derivedRow(p, "between", blurred->name + " / " + other->name);
     derivedRow(p, profile->gap ? "gap" : "overlap", formatted(profile->seamWidth_mm * 1e-3, Unit::millimetre),
                "Without blending: a dark gap or a bright overlap this wide.");
+    if (profile->depthStep) {
+        wrapped("One surface stands before the other here, so nothing is blended: what shows is the outline of the "
+                "nearer one.",
+                colour::dim, Font::small);
+    }
     const auto worst = [&](const char* label, const EyeProfile& eye) {
         derivedRow(p, label,
                    formatted(eye.worstWeberBefore, Unit::percent) + " \u2192 " +

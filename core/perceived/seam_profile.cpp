@@ -185,6 +185,8 @@ std::optional<SeamProfile> seamProfile(const Compiled& compiled, Point<CameraFra
     profile.other = regions.all()[crossing->other].region->id;
     const auto distance = distanceAt(compiled.document, *blurred.region, profile.at);
     if (!distance) return std::nullopt;
+    const auto behind = distanceAt(compiled.document, *regions.all()[crossing->other].region, profile.at);
+    profile.depthStep = behind && abs(1.0 / *behind - 1.0 / *distance) > kDepthStep;
     const Border border =
         borderAt(compiled, profile, *distance, plan.levels[static_cast<std::size_t>(*blurred.level)].power);
     const auto millimetres = [&](double pixels) { return pixels / border.pixelsPerMetre * 1e3; };

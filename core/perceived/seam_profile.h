@@ -24,7 +24,8 @@ struct SeamProfile {
     EyeProfile left, right;
     /// (s - 1) |(x - c) n| of the eye where it is larger: the gap or overlap along the normal without blending.
     double seamWidth_mm = 0.0;
-    bool gap = false;  ///< true: dark without blending; false: bright
+    bool gap = false;        ///< true: dark without blending; false: bright
+    bool depthStep = false;  ///< one surface stands before the other here: not blended, what shows is its outline
 };
 
 /// The profile across the border of a blurred region (towards a region lit at another level) nearest to `cursor` within

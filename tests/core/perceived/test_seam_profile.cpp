@@ -13,10 +13,10 @@ namespace {
 
 constexpr Size kWide{800, 300};
 
-/// A picture at 2 px/mm, lenses' axes on the camera's, and a blurred strip left of `x` on a focused wall at 0.5 m.
-Compiled leftStrip(int x) {
+/// A picture at 2 px/mm, lenses' axes on the camera's, and a blurred strip at 0.5 m left of `x` on a focused wall.
+Compiled leftStrip(int x, double wall_m = 0.5) {
     Document d = document({region("strip", Look::blur, 0.5, maskOf(kWide, [=](int i, int) { return i < x; }))},
-                          Look::focus, 0.5, kWide);
+                          Look::focus, wall_m, kWide);
     d.scene.scale.focalPixels = 2000.0 * 0.52;
     d.wearer.confusion.preset = CircleOfConfusion::Preset::oneArcmin;
     d.wearer.axes = {LensAxis{}, LensAxis{}};
@@ -71,6 +71,15 @@ TEST_CASE("seam profile: without blending the seam is (s - 1) |x - c| wide and a
         CHECK(profile->left.after[i] == doctest::Approx(profile->left.before[i]).epsilon(0.01));
     }
     CHECK(profile->left.before == profile->right.before);
+}
+
+TEST_CASE("seam profile: says where one surface stands before the other, since nothing is blended there") {
+    const auto onOneSurface = seamProfile(leftStrip(600), {600.0, 150.0}, 10.0);
+    REQUIRE(onOneSurface);
+    CHECK_FALSE(onOneSurface->depthStep);
+    const auto beforeTheWall = seamProfile(leftStrip(600, 0.8), {600.0, 150.0}, 10.0);
+    REQUIRE(beforeTheWall);
+    CHECK(beforeTheWall->depthStep);
 }
 
 TEST_CASE("seam profile: two eyes see different seams") {
