@@ -93,16 +93,13 @@ void Server::send(const std::string& client, const Message& message) {
 }
 
 struct Client::Socket {
-    explicit Socket(std::string to) : address(std::move(to)) { connect(); }
-    void connect() {
-        zmq = zmq::socket_t(context(), zmq::socket_type::dealer);
+    explicit Socket(const std::string& address) : zmq(context(), zmq::socket_type::dealer) {
         configure(zmq);
         zmq.set(zmq::sockopt::immediate, true);
         // A core that is restarted is back within tens of milliseconds; knocking is cheap on a local socket.
         zmq.set(zmq::sockopt::reconnect_ivl, 20);
         zmq.connect(address);
     }
-    std::string address;
     zmq::socket_t zmq;
 };
 
@@ -110,8 +107,6 @@ Client::Client(const std::string& address) : socket_(std::make_unique<Socket>(ad
 Client::~Client() = default;
 Client::Client(Client&&) noexcept = default;
 Client& Client::operator=(Client&&) noexcept = default;
-
-void Client::reconnect() { socket_->connect(); }
 
 bool Client::send(const Message& message, std::chrono::milliseconds timeout) {
     std::vector<zmq::pollitem_t> items{{socket_->zmq.handle(), 0, ZMQ_POLLOUT, 0}};

@@ -48,8 +48,6 @@ public:
     bool send(const Message& message, std::chrono::milliseconds timeout = std::chrono::milliseconds(0));
     /// The next message within `timeout`; nothing if none came. Bytes that are no message come as an error.
     std::optional<Result<Message>> receive(std::chrono::milliseconds timeout);
-    /// Forgets all that is on its way and starts a new connection.
-    void reconnect();
 
 private:
     struct Socket;

@@ -7,15 +7,17 @@
 namespace ilf::devices {
 
 DeviceClient::DeviceClient(const std::filesystem::path& runtimeDirectory, std::chrono::milliseconds timeout)
-    : address_(devicesAddress(runtimeDirectory)), client_(address_), timeout_(timeout) {}
+    : client_(devicesAddress(runtimeDirectory)), timeout_(timeout) {}
 
 Result<Body> DeviceClient::call(const Body& request) {
     using Clock = std::chrono::steady_clock;
+    // The connection stays: answers carry the number of their question, so a late one is passed over, and the devices
+    // go on knowing who their player is. ZeroMQ connects again by itself when their process was restarted.
     const auto lost = [&](const char* how) {
-        // An answer that comes late must not be taken for that of the next question's devices.
-        client_.reconnect();
-        return fail(Fault::device, std::string("The simulated lens and projector ") + how +
-                                       ". The light is steady once they are back; check that their process runs.");
+        return fail(Fault::device,
+                    std::string("The simulated lens and projector ") + how +
+                        " in time. The light is steady once they are back; check that their process runs "
+                        "and that the machine is not overloaded.");
     };
     // A question is asked twice before the devices count as lost; an order gets that time at once, and a whole program
     // more of it.
@@ -23,10 +25,10 @@ Result<Body> DeviceClient::call(const Body& request) {
     const auto limit = isQuestion ? timeout_ : (std::holds_alternative<ProgramUpdate>(request) ? 5 : 2) * timeout_;
     const auto deadline = Clock::now() + limit;
     const std::uint64_t id = ++lastId_;
-    if (!client_.send({id, request}, timeout_)) return lost("are not there");
+    if (!client_.send({id, request}, timeout_)) return lost("could not be reached");
     while (true) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
-        if (left.count() <= 0) return lost("do not answer");
+        if (left.count() <= 0) return lost("did not answer");
         auto answer = client_.receive(left);
         if (!answer) continue;
         if (!*answer) return tl::unexpected(answer->error());

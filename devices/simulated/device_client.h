@@ -24,7 +24,6 @@ public:
     Result<void> safeLight();
 
 private:
-    std::string address_;
     Client client_;
     std::chrono::milliseconds timeout_;
     std::uint64_t lastId_ = 0;

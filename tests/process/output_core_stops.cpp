@@ -110,7 +110,7 @@ TEST_CASE("devices that fall silent are a fault, and are tried again until they 
     OutputCore::take(link, program(1), 1);
     inject(core, InjectFault::Kind::silence);
     CHECK(OutputCore::until(link, seconds(2), [](const Status& s) { return s.faults == 1; }));
-    CHECK(link.status().fault.find("do not answer") != std::string::npos);
+    CHECK(link.status().fault.find("did not answer") != std::string::npos);
     inject(core, InjectFault::Kind::none);
     CHECK(core.devicesBecome(seconds(5), safe));
     CHECK(OutputCore::until(link, seconds(5), [](const Status& s) { return s.projectorWell; }));
