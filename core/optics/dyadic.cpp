@@ -147,7 +147,7 @@ double quotient(const Dyadic& a, const Dyadic& b) {
     }
     if (!rest.empty()) bits |= 1U;
     // A subnormal result has fewer bits than 53: they are cut here, so that it is rounded once and not twice.
-    const int below = -1021 - exponent;
+    const int below = -1022 - exponent;
     if (below > 0) {
         if (below > 62) return a.negative_ != b.negative_ ? -0.0 : 0.0;
         const std::uint64_t sticky = (bits & ((std::uint64_t{1} << static_cast<unsigned>(below)) - 1U)) != 0 ? 1U : 0U;

@@ -92,11 +92,10 @@ OpticsCase normalised(OpticsCase in) {
 std::optional<double> rounded(const forms::Ratio<Tracked>& ratio) {
     if (!ratio.above.trusted() || !ratio.below.trusted() || ratio.below.value.hi == 0.0) return std::nullopt;
     if (ratio.above.value.hi == 0.0) return 0.0;
-    const Dd value = ratio.above.value / ratio.below.value;
-    const double size = std::abs(value.hi);
     // Near the ends of the range the low halves are lost.
-    if (!(size > 0x1p-960 && size < 0x1p960) || !(std::abs(ratio.below.value.hi) > 0x1p-960) ||
-        !(std::abs(ratio.above.value.hi) > 0x1p-900))
+    const auto wellInside = [](double x) { return std::abs(x) > 0x1p-900 && std::abs(x) < 0x1p900; };
+    const Dd value = ratio.above.value / ratio.below.value;
+    if (!wellInside(ratio.above.value.hi) || !wellInside(ratio.below.value.hi) || !wellInside(value.hi))
         return std::nullopt;
     return value.hi;
 }
@@ -122,6 +121,12 @@ private:
     std::optional<forms::Border<ExactArithmetic>> far_, near_;
 };
 
+/// d_Ei / w = 1 / (w P - 1) is -1 for a lens of no power however far the object; as 0 : 0 the projective form cannot
+/// tell.
+void imageWithoutPower(const OpticsCase& in, OpticsValues& out) {
+    if (in.q == 0.0 && in.power == 0.0) out.values[static_cast<std::size_t>(Optic::x2)] = -in.height;
+}
+
 /// The first status that holds. `farReach` has the sign of Q = D_e r (1 + e F).
 template <class Real>
 OpticsStatus statusOf(const OpticsCase& in, const OpticsValues& out, Real nSign, Real farReach) {
@@ -146,6 +151,12 @@ double angle(double above, double below, double ratio) {
     return std::atan2(above, below);
 }
 
+/// Which of the two half turns a point on the axis (x_1 = 0) makes when N changes its sign is in the sign of the zero.
+double signedZero(const OpticsCase& in, Optic which, double above) {
+    if (above != 0.0 || which != Optic::duE) return above;
+    return std::copysign(0.0, in.lensToPupil * in.p * in.power * in.height * in.q);
+}
+
 inline OpticsValues preciseValues(const OpticsCase& in, FallbackCounts* fallbacks) {
     using A = TrackedArithmetic;
     const forms::Terms<A> terms(in);
@@ -163,18 +174,20 @@ inline OpticsValues preciseValues(const OpticsCase& in, FallbackCounts* fallback
         if (const auto value = rounded(ratio)) {
             out.values[i] = *value;
             if (which == Optic::uE || which == Optic::duE) {
-                out.values[i] = angle(ratio.above.value.hi, ratio.below.value.hi, *value);
+                out.values[i] = angle(signedZero(in, which, ratio.above.value.hi), ratio.below.value.hi, *value);
             }
         } else {
             count(which);
             const auto precisely = exact.ratio(which);
             out.values[i] = quotient(precisely.above, precisely.below);
             if (which == Optic::uE || which == Optic::duE) {
-                out.values[i] = angle(quotient(precisely.above, 1.0), quotient(precisely.below, 1.0), out.values[i]);
+                out.values[i] = angle(signedZero(in, which, quotient(precisely.above, 1.0)),
+                                      quotient(precisely.below, 1.0), out.values[i]);
             }
         }
         if (which == Optic::Dr) out.values[i] = std::abs(out.values[i]);
     }
+    imageWithoutPower(in, out);
     const auto signOf = [](const Tracked& known, const auto& exactly) {
         return known.trusted() ? known.value.hi : static_cast<double>(exactly().sign());
     };
@@ -205,6 +218,7 @@ inline OpticsValues fastValues(const OpticsCase& in) {
     // 1/w + K: without the common denominator's roundings.
     out.values[static_cast<std::size_t>(Optic::pMinFar)] = finite(terms.q / terms.p + far.g / far.big);
     out.values[static_cast<std::size_t>(Optic::pMinNear)] = finite(terms.q / terms.p + near.g / near.big);
+    imageWithoutPower(in, out);
     out.status = statusOf(in, out, terms.n, far.big);
     return out;
 }

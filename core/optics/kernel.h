@@ -82,8 +82,9 @@ struct FallbackCounts {
 enum class OpticsPath : std::uint8_t { precise, fast64, fast32 };
 
 /// All values. precise: double-double, one rounding, and exact integers where its own error bound does not suffice:
-/// every value but the angles within 0.52 ulp, u_E 2, angle difference 3. fast64 and fast32: fma only, for inputs
-/// with |e P| <= 0.5: |error of D_r| <= 8 u D_e max(|1 - r P_e|, |r t / N|), s 4 ulp, s - 1 5 ulp, u_E 3 ulp.
+/// every value but the angles within 0.52 ulp, u_E 2, angle difference 3. fast64 and fast32: fma only; for distances >=
+/// 0 and |e P| <= 0.5: |error of D_r| <= 8 u D_e max(|1 - r P_e|, |r t / N|), s 4 ulp, s - 1 5 ulp, u_E 3 ulp, d_Ei 2
+/// ulp.
 OpticsValues evaluate(const OpticsCase& in, OpticsPath path, FallbackCounts* fallbacks = nullptr);
 
 /// D_r alone, metres; infinite at the pole. Precondition: finite inputs.
