@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "app/exit_code.h"
+#include "app/headless/optics_command.h"
 #include "app/headless/plan_command.h"
 #include "app/headless/render_command.h"
 #include "app/headless/run_command.h"
@@ -53,6 +54,25 @@ void addRun(CLI::App& app, RunOptions& options) {
     run->add_option("--pictures", options.pictures, "Directory for the views and slot images");
 }
 
+void addOptics(CLI::App& app, OpticsEvalOptions& eval, OpticsTableOptions& table) {
+    auto* optics =
+        app.add_subcommand("optics", "The formulas: blur, borders and scale, over a file of cases or as tables");
+    optics->require_subcommand(1);
+    auto* cases =
+        optics->add_subcommand("eval", "Every value of the cases in a CSV (w,P,e,r,Pe,De,Da,x1), with its status");
+    cases->add_option("--path", eval.path, "precise, fast64 or fast32")
+        ->check(CLI::IsMember({"precise", "fast64", "fast32"}))
+        ->capture_default_str();
+    cases->add_option("--in", eval.in, "CSV to read; hexadecimal or decimal floats")->required();
+    cases->add_option("--out", eval.out, "CSV to write; hexadecimal floats")->required();
+    auto* tables = optics->add_subcommand("table", "A table of the reference eye");
+    tables->add_option("TABLE", table.table, "far-border, near-border, blur or scale")
+        ->check(CLI::IsMember({"far-border", "near-border", "blur", "scale"}))
+        ->required();
+    auto* json = tables->add_flag("--json", table.json, "As JSON");
+    tables->add_flag("--csv", table.csv, "As CSV")->excludes(json);
+}
+
 void addStudio(CLI::App& app, StudioOptions& options) {
     app.add_option("FILE", options.file, "Project, picture or video to open");
     app.add_option("--scale", options.scale, "Size of the window's text and controls (0: the display's own)")
@@ -78,11 +98,14 @@ int main(int argc, char** argv) {
     PlanOptions plan;
     RenderOptions render;
     RunOptions run;
+    OpticsEvalOptions opticsEval;
+    OpticsTableOptions opticsTable;
     std::string validated;
     addStudio(app, studio);
     addPlan(app, plan);
     addRender(app, render);
     addRun(app, run);
+    addOptics(app, opticsEval, opticsTable);
     app.add_subcommand("validate", "Opens, plans and compiles a project and says what is wrong with it")
         ->add_option("FILE", validated, "Project, picture or video")
         ->required();
@@ -102,6 +125,10 @@ int main(int argc, char** argv) {
         if (app.got_subcommand("plan")) return planCommand(plan);
         if (app.got_subcommand("render")) return renderCommand(render);
         if (app.got_subcommand("run")) return runCommand(run);
+        if (app.got_subcommand("optics")) {
+            return app.get_subcommand("optics")->got_subcommand("eval") ? opticsEvalCommand(opticsEval)
+                                                                        : opticsTableCommand(opticsTable);
+        }
         if (app.got_subcommand("validate")) return validateCommand(validated);
         return runStudio(studio);
     } catch (const std::exception& e) {  // a library threw where nobody expected it
