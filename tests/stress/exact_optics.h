@@ -1,4 +1,4 @@
-// The paper's closed forms with 640 bits (MPFR): what the kernel is measured against. Shares no formula code with it.
+// The paper's closed forms with 512 bits (MPFR): what the kernel is measured against. Shares no formula code with it.
 #pragma once
 
 #include <mpfr.h>
@@ -11,7 +11,7 @@
 
 namespace ilf::stress {
 
-inline constexpr mpfr_prec_t kPrecision = 640, kAnglePrecision = 192;
+inline constexpr mpfr_prec_t kPrecision = 512, kAnglePrecision = 96;
 
 /// An MPFR number that frees itself.
 class Mp {
@@ -46,6 +46,9 @@ public:
         return std::abs(mpfr_get_d(difference_, MPFR_RNDN));
     }
     double value(Optic optic) const { return mpfr_get_d(values_[static_cast<std::size_t>(optic)], MPFR_RNDN); }
+    long double longValue(Optic optic) const {
+        return mpfr_get_ld(values_[static_cast<std::size_t>(optic)], MPFR_RNDN);
+    }
     bool finite(Optic optic) const {
         return !infinite_[static_cast<std::size_t>(optic)] && !vanished_[static_cast<std::size_t>(optic)];
     }
@@ -85,7 +88,7 @@ inline void ExactOptics::work(const OpticsCase& in) {
     vanished_.fill(false);
     const bool far = in.q == 0.0;
     mpfr_set_d(w_, in.p, kRound);
-    // Infinity: 2^3000 m is the same to 640 bits.
+    // Infinity: 2^3000 m is the same to 512 bits.
     if (far) mpfr_set_ui_2exp(w_, 1, 3000, kRound);
     mpfr_mul_d(t_, w_, in.power, kRound);
     mpfr_d_sub(t_, 1.0, t_, kRound);
