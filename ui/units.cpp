@@ -74,6 +74,9 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+/// Units below one are powers of ten: dividing by the whole number keeps 70 cm at 0.7 and not 0.7000000000000001.
+double scaled(double value, double toSi) { return toSi < 1.0 ? value / std::round(1.0 / toSi) : value * toSi; }
+
 std::string decimals(double value, int digits, const char* suffix) {
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), "%.*f%s", digits, value == 0.0 ? 0.0 : value, suffix);
@@ -101,12 +104,12 @@ Result<double> parsed(std::string_view text, Unit unit) {
 
     const std::string_view suffix =
         trimmed(std::string_view(end, static_cast<std::size_t>(number.data() + number.size() - end)));
-    if (suffix.empty()) return value * accepted.bare;
+    if (suffix.empty()) return scaled(value, accepted.bare);
     for (const Suffix& known : accepted.suffixes) {
         if (known.text != suffix) continue;
-        if (!known.reciprocal) return value * known.toSi;
+        if (!known.reciprocal) return scaled(value, known.toSi);
         if (value <= 0.0) return refuse("\"" + shown + "\" has no finite positive reciprocal.");
-        return 1.0 / (value * known.toSi);
+        return 1.0 / scaled(value, known.toSi);
     }
     return refuse("\"" + std::string(suffix) + "\" is not a unit of this field.");
 }
