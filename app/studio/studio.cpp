@@ -22,6 +22,8 @@ constexpr Size kDefaultWindow{1440, 900};
 constexpr double kIdleWait_s = 0.1;
 /// Frames drawn after the last event, so that ImGui's hover and fade states settle.
 constexpr int kSettlingFrames = 3;
+/// A screenshot does not wait longer than this for the core.
+constexpr double kScreenshotPatience_s = 15.0;
 /// A view computed while dragging is refined once nothing has changed for this long.
 constexpr double kRestAfter_s = 0.08;
 
@@ -100,8 +102,7 @@ int Studio::run() {
         window_->waitEvents(busy ? 0.0 : kIdleWait_s);
         frame();
         if ((window_->shouldClose() || closing_) && mayClose()) return kDone;
-        if (!options_.screenshot.empty() && done_.viewsDone && done_.serial == editor_.serial() &&
-            quietFrames_ >= kSettlingFrames && now_s() > 1.0) {
+        if (!options_.screenshot.empty() && worthAPicture()) {
             window_->captureNext();
             frame();
             const auto written = projects::writePng(options_.screenshot, window_->captured());
@@ -109,6 +110,12 @@ int Studio::run() {
             return written ? kDone : kFailed;
         }
     }
+}
+
+bool Studio::worthAPicture() const {
+    const bool shown = done_.viewsDone && done_.serial == editor_.serial() && quietFrames_ >= kSettlingFrames;
+    const bool plays = !playAtStart_ && !takeSerial_ && core_.connected && core_.revisionPlayed == revision_;
+    return shown && now_s() > 1.0 && (plays || now_s() > kScreenshotPatience_s);
 }
 
 bool Studio::mayClose() {

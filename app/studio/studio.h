@@ -40,6 +40,7 @@ private:
     void handle(const ui::Requests& requests);
     void say(const std::string& sentence, ui::Tone tone);
     bool mayClose();
+    bool worthAPicture() const;  ///< everything the window shows is settled
     void showTitle();
     double now_s() const;
     int editsSinceTake() const;  ///< 0: what plays is what is painted

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs every benchmark, writes tests/bench/results.csv and results.png, and puts the table into README.md.
 # Usage: tests/bench/run.sh [BUILD_DIRECTORY]   (default: build/release)
+# ILF_BENCH_ARGS are passed to every benchmark.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=${1:-build/release}
@@ -15,7 +16,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 for bench in "$build"/bin/bench_*; do
     echo "== $(basename "$bench")"
-    "$bench" --benchmark_out="$work/$(basename "$bench").json" --benchmark_out_format=json >/dev/null
+    # shellcheck disable=SC2086
+    "$bench" ${ILF_BENCH_ARGS:-} --benchmark_out="$work/$(basename "$bench").json" --benchmark_out_format=json >/dev/null
 done
 
 # One row a benchmark. Counters every benchmark may give: p50_us, p95_us, whole_us (the cost of the whole frame), ratio
@@ -34,20 +36,21 @@ done
     done
 } > "$out/results.csv"
 
+# label, p50, p95 (p50 where there is none), whole frame (NaN where there is none)
+tail -n +2 "$out/results.csv" | sed 's/"//g' |
+    awk -F, '{ gsub("_", " ", $2); printf "\"%s: %s\" %s %s %s\n", $1, $2, $3, $4 == "" ? $3 : $4, $5 == "" ? "NaN" : $5 }' \
+        > "$work/plot.dat"
 gnuplot <<EOF
-set terminal pngcairo size 1100,620 font "Inter,10" background "#ffffff"
+set terminal pngcairo size 1100,700 font "Inter,10" background "#ffffff"
 set output "$out/results.png"
-set datafile separator ","
 set logscale x
-set xlabel "time, microseconds (p50; bar to p95)"
-set title "What an edit costs, and what it skips (whole frame in grey)"
+set xlabel "time, microseconds: p50, a bar to p95, in grey the whole frame that was skipped"
 set grid x
 set offsets 0,0,0.6,0.6
 unset key
-set lmargin 42
-plot "$out/results.csv" every ::1 using 3:0:yticlabels(2) with points pt 7 ps 1.2 lc rgb "#1f6fc4", \
-     "" every ::1 using 3:0:3:(\$4 eq "" ? \$3 : \$4) with xerrorbars pt 7 ps 0.1 lc rgb "#1f6fc4", \
-     "" every ::1 using 5:0 with points pt 5 ps 1.0 lc rgb "#999999"
+set lmargin 46
+plot "$work/plot.dat" using 2:0:2:3:yticlabels(1) with xerrorbars pt 7 ps 1.1 lc rgb "#1f6fc4", \
+     "" using 4:0 with points pt 5 ps 1.0 lc rgb "#999999"
 EOF
 
 # The table of the README, between its two markers.
@@ -55,7 +58,7 @@ EOF
     echo "| case | p50 | p95 | whole frame | skipped | error |"
     echo "| --- | ---: | ---: | ---: | ---: | --- |"
     tail -n +2 "$out/results.csv" | sed 's/"//g' | awk -F, '
-        function t(us) { return us == "" ? "" : us >= 1000 ? sprintf("%.2f ms", us / 1000) : us >= 1 ? sprintf("%.1f us", us) : sprintf("%.0f ns", us * 1000) }
+        function t(us) { return us == "" ? "" : us >= 1000 ? sprintf("%.2f ms", us / 1000) : us >= 1 ? sprintf("%.1f us", us) : us >= 0.01 ? sprintf("%.0f ns", us * 1000) : sprintf("%.2f ns", us * 1000) }
         { printf "| %s: %s | %s | %s | %s | %s | %s %s |\n", $1, $2, t($3), t($4), t($5), $6 == "" ? "" : sprintf("%.0fx", $6), $7 == "" ? "" : sprintf("%.3g", $7), $8 }'
     echo
     echo "Measured $(date -u +%F) on $(nproc) cores, $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1). Simulated devices."
