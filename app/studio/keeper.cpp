@@ -17,7 +17,8 @@ namespace ilf::app {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kAutosaveEvery_s = 30.0;
+// Painting goes on meanwhile on other tiles, so a save is cheap; but it should not run after every dab.
+constexpr double kRestBeforeAutosave_s = 3.0, kAutosaveEvery_s = 30.0;
 constexpr std::size_t kNever = static_cast<std::size_t>(-1);
 
 fs::path layoutFile() { return projects::configDir() / "layout.txt"; }
@@ -134,7 +135,10 @@ void Keeper::save(const std::string& named, Document document) {
 }
 
 void Keeper::autosaveIfDue(const Document& document, std::size_t revision, double now_s) {
-    if (revision == autosavedRevision_ || now_s - autosavedAt_s_ < kAutosaveEvery_s) return;
+    if (revision == autosavedRevision_) return;
+    if (revision != seenRevision_) seenAt_s_ = now_s;
+    seenRevision_ = revision;
+    if (now_s - seenAt_s_ < kRestBeforeAutosave_s && now_s - autosavedAt_s_ < kAutosaveEvery_s) return;
     autosavedRevision_ = revision;
     autosavedAt_s_ = now_s;
     if (unsaved(document)) autosaveNow(document);

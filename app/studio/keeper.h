@@ -40,7 +40,7 @@ public:
     double savedAgo_s() const;
     /// To NAME.ilfd (a folder) or NAME.ilf (an archive); a name with neither gets .ilfd.
     void save(const std::string& named, Document document);
-    /// Every 30 s while something changed; undo and redo count as changes.
+    /// Three seconds after the last change, and every 30 s while changes go on; undo and redo count as changes.
     void autosaveIfDue(const Document& document, std::size_t revision, double now_s);
     void autosaveNow(const Document& document);
 
@@ -72,10 +72,10 @@ private:
     std::string path_;
     projects::ProjectExtras extras_;
     std::optional<Document> saved_;  ///< as it was when last opened or saved; nothing: never
-    std::size_t autosavedRevision_ = 0;
+    std::size_t autosavedRevision_ = 0, seenRevision_ = 0;
     std::uint64_t project_ = 0;  ///< counts projects shown: late news of another one is only said
     bool crashedLately_ = false;
-    double savedAt_s_ = -1.0, autosavedAt_s_ = 0.0;
+    double savedAt_s_ = -1.0, autosavedAt_s_ = 0.0, seenAt_s_ = 0.0;
     std::vector<ui::RecentFile> recent_;
     std::optional<projects::AutosaveSession> session_;
     std::optional<projects::PendingRecovery> pending_;
