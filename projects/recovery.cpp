@@ -175,8 +175,9 @@ StartReport noteStart(Clock::time_point now) {
     static_cast<void>(makeFolders(stateDir()).and_then([&] { return writeAtomically(file, json.text()); }));
     report.offerSafeStart = report.crashes >= kCrashesForSafeStart;
     if (report.offerSafeStart) {
-        report.sentence = "The studio ended unexpectedly " + std::to_string(report.crashes) +
-                          " times in the last five minutes. Nothing was put on show by itself; the autosaved work is kept.";
+        report.sentence =
+            "The studio ended unexpectedly " + std::to_string(report.crashes) +
+            " times in the last five minutes. Nothing was put on show by itself; the autosaved work is kept.";
     }
     return report;
 }

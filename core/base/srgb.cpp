@@ -20,8 +20,8 @@ const std::vector<float>& linearTable() {
     return table;
 }
 
-/// Where each code ends, and the code at the start of each of 4096 steps of linear light. The steepest part of the curve
-/// (12.92 * 255 codes a unit) passes less than one code in a step, so one comparison settles the rest.
+/// Where each code ends, and the code at the start of each of 4096 steps of linear light. The steepest part of the
+/// curve (12.92 * 255 codes a unit) passes less than one code in a step, so one comparison settles the rest.
 struct Codes {
     static constexpr int kSteps = 4096;
     std::array<float, 256> upper{};

@@ -75,10 +75,10 @@ Metre blurDiameterAttending(const EyeOptics& eye, Metre distance, Dioptre lens, 
 /// s = N(from) / N(to), N(P) = d + e - d e P; with from = 0 this is the paper's s.
 double magnification(const EyeOptics& eye, Metre distance, Dioptre from, Dioptre to);
 
-/// Apparent blur radius against the view through `rest`, measured across the surface in metres at `distance`, for an eye
-/// focused on that surface through `rest`: a point at x_1 is seen at the angle x_1 / N(rest), so R = N(rest) (D_e / 2) |E|
-/// with E of `defocusAttending` at the same distance. Through a lens at 0 D, times pixelsPerMetre, it is
-/// f_px D_r / (2 d_er).
+/// Apparent blur radius against the view through `rest`, measured across the surface in metres at `distance`, for an
+/// eye focused on that surface through `rest`: a point at x_1 is seen at the angle x_1 / N(rest), so R = N(rest) (D_e /
+/// 2) |E| with E of `defocusAttending` at the same distance. Through a lens at 0 D, times pixelsPerMetre, it is f_px
+/// D_r / (2 d_er).
 Metre blurRadiusOnSurface(const EyeOptics& eye, Metre distance, Dioptre rest, Dioptre lens);
 
 }  // namespace ilf
