@@ -59,7 +59,7 @@ EOF
     echo "| --- | ---: | ---: | ---: | ---: | --- |"
     tail -n +2 "$out/results.csv" | sed 's/"//g' | awk -F, '
         function t(us) { return us == "" ? "" : us >= 1000 ? sprintf("%.2f ms", us / 1000) : us >= 1 ? sprintf("%.1f us", us) : us >= 0.01 ? sprintf("%.0f ns", us * 1000) : sprintf("%.2f ns", us * 1000) }
-        { printf "| %s: %s | %s | %s | %s | %s | %s %s |\n", $1, $2, t($3), t($4), t($5), $6 == "" ? "" : sprintf("%.0fx", $6), $7 == "" ? "" : sprintf("%.3g", $7), $8 }'
+        { gsub("/process_time", "", $2); printf "| %s: %s | %s | %s | %s | %s | %s %s |\n", $1, $2, t($3), t($4), t($5), $6 == "" ? "" : sprintf("%.0fx", $6), $7 == "" ? "" : sprintf("%.3g", $7), $8 }'
     echo
     echo "Measured $(date -u +%F) on $(nproc) cores, $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1). Simulated devices."
 } > "$work/table.md"
