@@ -128,7 +128,6 @@ bool Studio::mayClose() {
 }
 
 void Studio::frame() {
-    const auto started = Clock::now();
     collect();
     ui::Input input = window_->takeInput();
     input.dropped = window_->takeDroppedFiles();
@@ -143,8 +142,7 @@ void Studio::frame() {
     sendIfDue();
     postJob();
     keeper_.autosaveIfDue(editor_.document(), editor_.history().revision(), now_s());
-    frame_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - started).count();
-    swap_ms_ = 1e3 * window_->endFrame();
+    window_->endFrame();
     quietFrames_ = eventful || !requests.empty() ? 0 : std::min(quietFrames_ + 1, 1000);
 }
 

@@ -86,8 +86,7 @@ private:
     ui::Wants posted_;
     bool postedDragging_ = false;
     Clock::time_point startedAt_ = Clock::now();
-    double frame_ms_ = 0.0, swap_ms_ = 0.0;  ///< own share of a frame, and the driver's
-    Clock::time_point changedAt_;            ///< when what is shown last changed
+    Clock::time_point changedAt_;  ///< when what is shown last changed
     std::uint64_t seenSerial_ = 0;
 
     devices::Status core_;

@@ -49,7 +49,6 @@ void uploadLight(GlTexture& texture, const LightImage& shown, const LightImage& 
 }  // namespace
 
 void Pictures::show(const Document& document, const RegionId& selected) {
-    overlayTiles_ = 0;
     if (!document.scene.picture) return;
     if (!document.scene.picture.same(shownPicture_)) {
         scene_.upload(toBytes(*document.scene.picture), false);
@@ -60,7 +59,6 @@ void Pictures::show(const Document& document, const RegionId& selected) {
     const ui::OverlaySubject before = anew ? ui::OverlaySubject{} : *shownRegions_;
     for (const auto& [column, row] : ui::overlayTilesThatDiffer(before, now)) {
         uploadTile(overlay_, column, row, ui::overlayTile(document, selected, column, row));
-        ++overlayTiles_;
     }
     shownRegions_ = now;
 }

@@ -25,8 +25,6 @@ public:
 
     /// Fills in the textures of a view.
     void fill(ui::View& view) const;
-    /// Overlay tiles uploaded by the last show(): what was skipped is the rest.
-    int overlayTiles() const { return overlayTiles_; }
 
 private:
     GlTexture scene_, overlay_, live_, plain_;
@@ -39,7 +37,6 @@ private:
     std::array<ViewPicture, 2> shownPerceived_;
     ViewPicture shownPlain_;
     std::vector<LightImage> shownLights_;
-    int overlayTiles_ = 0;
 };
 
 }  // namespace ilf::app

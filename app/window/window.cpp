@@ -7,8 +7,6 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
-#include <chrono>
-
 namespace ilf::app {
 namespace {
 
@@ -127,7 +125,7 @@ void Window::beginFrame() {
     ImGui::NewFrame();
 }
 
-double Window::endFrame() {
+void Window::endFrame() {
     ImGui::Render();
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);
@@ -136,9 +134,7 @@ double Window::endFrame() {
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     if (std::exchange(capture_, false)) capture(width, height);  // before the swap: the back buffer is lost with it
-    const auto start = std::chrono::steady_clock::now();
     glfwSwapBuffers(window_);
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void Window::capture(int width, int height) {

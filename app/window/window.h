@@ -35,8 +35,8 @@ public:
     static void wake();
 
     void beginFrame();
-    /// Draws what was built and shows it; the seconds it took, the driver's swap included.
-    double endFrame();
+    /// Draws what was built and shows it.
+    void endFrame();
     /// The next frame is also kept as a picture, RGB; for `--screenshot`.
     void captureNext() { capture_ = true; }
     const Image<std::uint8_t>& captured() const { return captured_; }
