@@ -1,0 +1,28 @@
+// What the planner gets to know of a lens: from a wave database, or recorded on the lens emulator at start.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "core/lens/calibration.h"
+#include "devices/simulated/lens_emulator.h"
+#include "projects/wave_database.h"
+
+namespace ilf::app {
+
+using Calibration = std::shared_ptr<const LensCalibration>;
+
+/// Tables and models, one a rate; a rate with too few waves for a model has a table only. Drives beyond the largest
+/// recorded (peak and rms) are never asked of a lens: the records are the proof that it bears them.
+Result<Calibration> calibrationFrom(const projects::WaveFile& waves);
+
+/// Plays sine drives on a lens emulator as one would on a lens, and fits what was recorded: about 0.1 s on one core the
+/// first time, kept for each preset and rate. May be called from any thread.
+Result<Calibration> simulatedCalibration(devices::LensPreset preset, Hertz rate);
+
+/// The same with one more shaped wave that holds the lens at `levels` for `duty` of the sweep each, learnt on the
+/// emulator.
+Result<Calibration> withShapedWave(const Calibration& calibration, devices::LensPreset preset,
+                                   std::span<const Dioptre> levels, double duty, int harmonics, Hertz rate);
+
+}  // namespace ilf::app
