@@ -18,6 +18,13 @@ public:
     }
     void add(double value) { add(std::bit_cast<std::uint64_t>(value == 0.0 ? 0.0 : value)); }
     void add(int value) { add(static_cast<std::uint64_t>(static_cast<std::int64_t>(value))); }
+    void add(const Harmonics& f) {
+        add(static_cast<int>(f.c.size()));
+        for (const auto& c : f.c) {
+            add(c.real());
+            add(c.imag());
+        }
+    }
     void add(const Tile& tile) {
         std::uint64_t word = 0;
         for (std::size_t i = 0; i < tile.v.size(); i += sizeof word) {
@@ -33,7 +40,7 @@ private:
 
 bool finite(const Waveform& wave) {
     return isFinite(wave.rest) && isFinite(wave.low) && isFinite(wave.high) && isFinite(wave.rate) &&
-           isFinite(wave.tLow);
+           isFinite(wave.power) && isFinite(wave.drive);
 }
 
 }  // namespace
@@ -41,10 +48,15 @@ bool finite(const Waveform& wave) {
 std::uint64_t contentHash(const Program& program) {
     Hash hash;
     const Waveform& wave = program.waveform;
-    for (const double v : {wave.rest.si(), wave.low.si(), wave.high.si(), wave.rate.si(), wave.tLow.si(),
-                           program.slotRate.si(), program.projectorDelay.si()}) {
+    for (const double v : {wave.rest.si(), wave.low.si(), wave.high.si(), wave.rate.si(), program.slotRate.si(),
+                           program.projectorDelay.si()}) {
         hash.add(v);
     }
+    hash.add(wave.power);
+    hash.add(wave.drive);
+    for (const int v : {static_cast<int>(wave.mode), static_cast<int>(wave.unit), static_cast<int>(wave.provenance)})
+        hash.add(v);
+    hash.add(static_cast<std::uint64_t>(wave.wave));
     hash.add(program.projector.width);
     hash.add(program.projector.height);
     hash.add(static_cast<int>(program.images.size()));

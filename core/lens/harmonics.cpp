@@ -76,6 +76,11 @@ double Harmonics::meanOver(double start, double length) const {
     return value;
 }
 
+bool isFinite(const Harmonics& f) {
+    return std::ranges::all_of(f.c,
+                               [](const Complex& c) { return std::isfinite(c.real()) && std::isfinite(c.imag()); });
+}
+
 Harmonics squared(const Harmonics& f) {
     Harmonics out;
     if (f.c.empty()) return out;

@@ -25,6 +25,7 @@ struct Harmonics {
     double meanOver(double start, double length) const;
 };
 
+bool isFinite(const Harmonics& f);
 /// f^2, with twice as many harmonics. Its `meanOver` gives mean squares over slots in closed form.
 Harmonics squared(const Harmonics& f);
 /// f - constant.

@@ -231,7 +231,7 @@ Result<Plan> plan(const PlanInput& input) {
     if (plan.pS) high = std::max(high, *plan.pS + plan.alpha);
     for (const BlurWish& wish : blurs)
         high = std::max(high, wish.power.value_or(high));
-    plan.waveform = sineWaveform(restOf(input), focus.powers.front(), high, input.rig);
+    plan.waveform = idealSine(restOf(input), focus.powers.front(), high, input.rig.sweepRate, 0.5 / input.rig.slotRate);
 
     Draft draft = drafted(input, plan, focus, blurs, high);
     auto schedule = fitted(draft, plan);

@@ -8,6 +8,7 @@
 #include "core/base/quantity.h"
 #include "core/base/result.h"
 #include "core/document/document.h"
+#include "core/lens/waveform.h"
 #include "core/optics/eye.h"
 
 namespace ilf {
@@ -34,18 +35,6 @@ struct PlanInput {
 
 /// What a document asks of the planner; regions that cover nothing are left out.
 PlanInput planInput(const Document& document);
-
-/// Lens power over one sweep. Ideal sine: P(t) = (low + high)/2 - (high - low)/2 cos(2 pi (t - tLow) rate). Simulated.
-struct Waveform {
-    Dioptre rest;       ///< where the lens goes when nothing plays: the wearer's prescription offset
-    Dioptre low, high;  ///< equal: the lens stands still
-    Hertz rate = 60.0_Hz;
-    Second tLow;  ///< when the lowest power is reached, after the start of the sweep
-    bool operator==(const Waveform&) const = default;
-
-    bool still() const { return low == high; }
-    Dioptre powerAt(Second t) const;
-};
 
 enum class LevelKind { focus, blur };
 

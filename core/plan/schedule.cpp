@@ -3,32 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace ilf {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-
 /// Mean of P and of (P - level)^2 over one slot, in closed form.
-struct SlotPower {
-    double middle = 0.0, swing = 0.0;           ///< P = middle - swing cos(phase)
-    double meanCos = 0.0, meanCosSquare = 0.0;  ///< over the slot
-    double mean() const { return middle - swing * meanCos; }
-    double squareError(double level) const {
-        const double offset = middle - level;
-        return std::max(0.0, offset * offset - 2.0 * offset * swing * meanCos + swing * swing * meanCosSquare);
-    }
-};
+class SlotPower {
+public:
+    SlotPower(const Waveform& waveform, const Harmonics& square, Second start, Second duration)
+        : mean_(waveform.power.meanOver(start * waveform.rate, duration * waveform.rate)),
+          square_(square.meanOver(start * waveform.rate, duration * waveform.rate)) {}
+    double mean() const { return mean_; }
+    double squareError(double level) const { return std::max(0.0, square_ - 2.0 * level * mean_ + level * level); }
 
-SlotPower slotPower(const Waveform& waveform, Second start, Second duration) {
-    const double centre = kTwoPi * ((start + 0.5 * duration - waveform.tLow) * waveform.rate);
-    const double half = std::numbers::pi * (duration * waveform.rate);
-    const double meanCos = std::cos(centre) * std::sin(half) / half;
-    const double meanCosTwice = std::cos(2.0 * centre) * std::sin(2.0 * half) / (2.0 * half);
-    return {0.5 * (waveform.low + waveform.high).si(), 0.5 * (waveform.high - waveform.low).si(), meanCos,
-            0.5 + 0.5 * meanCosTwice};
-}
+private:
+    double mean_, square_;
+};
 
 double budget(const LevelWish& wish, Dioptre rest) {
     const double focus = kFocusErrorBudget.si();
@@ -69,23 +59,16 @@ Level filled(const LevelWish& wish, const Waveform& waveform, const std::vector<
 
 }  // namespace
 
-Dioptre Waveform::powerAt(Second t) const {
-    return 0.5 * (low + high) - 0.5 * (high - low) * std::cos(kTwoPi * ((t - tLow) * rate));
-}
-
-Waveform sineWaveform(Dioptre rest, Dioptre low, Dioptre high, const Rig& rig) {
-    return {rest, low, high, rig.sweepRate, 0.5 / rig.slotRate};
-}
-
 Schedule scheduled(const Waveform& waveform, const Rig& rig, const std::vector<LevelWish>& wishes) {
     const int count = slotsPerSweep(rig);
     const Second duration = 1.0 / rig.slotRate;
     Schedule schedule{waveform, {}, {}, 1.0};
+    const Harmonics square = squared(waveform.power);
     std::vector<SlotPower> powers;
     std::vector<std::vector<int>> candidates(wishes.size());
     for (int i = 0; i < count; ++i) {
         const Second start = static_cast<double>(i) * duration;
-        powers.push_back(slotPower(waveform, start, duration));
+        powers.emplace_back(waveform, square, start, duration);
         schedule.slots.push_back({i, start, duration, std::nullopt, Dioptre::fromSi(powers.back().mean())});
         candidates[waveform.still() ? 0 : nearestLevel(powers.back(), wishes)].push_back(i);
     }

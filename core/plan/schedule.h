@@ -24,9 +24,6 @@ struct Schedule {
     double light = 1.0;         ///< every level's luminance as a share of steady light
 };
 
-/// A sine from `low` to `high` whose lowest power falls on the middle of slot 0.
-Waveform sineWaveform(Dioptre rest, Dioptre low, Dioptre high, const Rig& rig);
-
 /// Each slot may serve the level nearest to it (least mean square error). Every level takes its slots in order of error
 /// while their common rms stays in the budget: that gives the level most light (scheduling 3.1), and dimming all levels
 /// to the darkest makes their luminance equal. A lens that stands still serves the first level in every slot.

@@ -15,8 +15,19 @@ constexpr std::size_t kTileBytes = static_cast<std::size_t>(kTile) * kTile;
 
 // ---- values to bytes ----
 
+Offset<flatbuffers::Vector<double>> encode(FlatBufferBuilder& fb, const Harmonics& f) {
+    std::vector<double> parts;
+    for (const auto& c : f.c)
+        parts.insert(parts.end(), {c.real(), c.imag()});
+    return fb.CreateVector(parts);
+}
+
 Offset<wire::Waveform> encode(FlatBufferBuilder& fb, const Waveform& w) {
-    return wire::CreateWaveform(fb, w.rest.si(), w.low.si(), w.high.si(), w.rate.si(), w.tLow.si());
+    const auto power = encode(fb, w.power);
+    const auto drive = encode(fb, w.drive);
+    return wire::CreateWaveform(fb, w.rest.si(), w.low.si(), w.high.si(), w.rate.si(), power, drive,
+                                static_cast<wire::DriveUnit>(w.unit), static_cast<wire::WaveMode>(w.mode), w.wave,
+                                static_cast<wire::Provenance>(w.provenance));
 }
 
 Offset<flatbuffers::Vector<Offset<wire::Tile>>> encode(FlatBufferBuilder& fb, const std::vector<TileUpdate>& tiles) {
@@ -156,9 +167,39 @@ Result<To> enumeration(From value, From last, const char* what) {
 
 std::string text(const flatbuffers::String* s) { return s != nullptr ? s->str() : std::string(); }
 
-Waveform decode(const wire::Waveform& w) {
-    return {Dioptre::fromSi(w.rest_D()), Dioptre::fromSi(w.low_D()), Dioptre::fromSi(w.high_D()),
-            Hertz::fromSi(w.rate_Hz()), Second::fromSi(w.t_low_s())};
+Result<Harmonics> decode(const flatbuffers::Vector<double>* parts) {
+    Harmonics f;
+    if (parts == nullptr) return f;
+    if (parts->size() % 2 != 0 || parts->size() > 2 * kMaxHarmonics)
+        return fail(Fault::badFile, "a message holds a lens wave of " + std::to_string(parts->size()) + " numbers.");
+    for (flatbuffers::uoffset_t i = 0; i < parts->size(); i += 2)
+        f.c.emplace_back(parts->Get(i), parts->Get(i + 1));
+    return f;
+}
+
+Result<Waveform> decode(const wire::Waveform& w) {
+    const auto mode = enumeration<WaveMode>(w.mode(), wire::WaveMode::MAX, "kind of lens wave");
+    const auto unit = enumeration<DriveUnit>(w.unit(), wire::DriveUnit::MAX, "unit of a lens drive");
+    const auto provenance = enumeration<Provenance>(w.provenance(), wire::Provenance::MAX, "provenance");
+    auto power = decode(w.power_D());
+    auto drive = decode(w.drive());
+    if (!mode) return tl::unexpected(mode.error());
+    if (!unit) return tl::unexpected(unit.error());
+    if (!provenance) return tl::unexpected(provenance.error());
+    if (!power) return tl::unexpected(power.error());
+    if (!drive) return tl::unexpected(drive.error());
+    Waveform wave;
+    wave.mode = *mode;
+    wave.rest = Dioptre::fromSi(w.rest_D());
+    wave.low = Dioptre::fromSi(w.low_D());
+    wave.high = Dioptre::fromSi(w.high_D());
+    wave.rate = Hertz::fromSi(w.rate_Hz());
+    wave.power = *std::move(power);
+    wave.drive = *std::move(drive);
+    wave.unit = *unit;
+    wave.wave = w.wave();
+    wave.provenance = *provenance;
+    return wave;
 }
 
 Result<std::vector<TileUpdate>> decode(const flatbuffers::Vector<Offset<wire::Tile>>& tiles) {
@@ -194,13 +235,15 @@ Result<Body> decode(const wire::ProgramUpdate& m) {
         if (!fits) return tl::unexpected(fits.error());
     auto tiles = decode(*m.tiles());
     if (!tiles) return tl::unexpected(tiles.error());
+    auto waveform = decode(*m.waveform());
+    if (!waveform) return tl::unexpected(waveform.error());
     ProgramUpdate update;
     update.revision = m.revision();
     update.why = *why;
     update.hold = m.hold();
     if (m.has_base()) update.base = m.base_hash();
     update.hash = m.hash();
-    update.waveform = decode(*m.waveform());
+    update.waveform = *std::move(waveform);
     update.slotRate = Hertz::fromSi(m.slot_rate_Hz());
     update.projectorDelay = Second::fromSi(m.projector_delay_s());
     update.projector = {m.width(), m.height()};
@@ -263,6 +306,8 @@ Result<Body> decode(const wire::DeviceState& m) {
     const auto lens = enumeration<LensMode>(m.lens(), wire::LensMode::MAX, "lens mode");
     if (!light) return tl::unexpected(light.error());
     if (!lens) return tl::unexpected(lens.error());
+    auto waveform = decode(*m.waveform());
+    if (!waveform) return tl::unexpected(waveform.error());
     DeviceState s;
     s.now_ns = m.now_ns();
     s.light = *light;
@@ -273,7 +318,7 @@ Result<Body> decode(const wire::DeviceState& m) {
     s.swaps = m.swaps();
     s.swapped_ns = m.swapped_ns();
     s.lens = *lens;
-    s.waveform = decode(*m.waveform());
+    s.waveform = *std::move(waveform);
     s.powerNow = Dioptre::fromSi(m.power_D());
     s.lensError = Dioptre::fromSi(m.lens_error_D());
     s.rateChangesUnderSlottedLight = m.rate_changes_under_slotted_light();
@@ -316,7 +361,9 @@ Result<Body> decodeBody(const wire::Message& m) {
     case wire::Body::Status:
         return decode(*m.body_as_Status());
     case wire::Body::SetWaveform:
-        return Body(SetWaveform{decode(*m.body_as_SetWaveform()->waveform())});
+        return decode(*m.body_as_SetWaveform()->waveform()).map([](Waveform&& wave) {
+            return Body(SetWaveform{std::move(wave)});
+        });
     case wire::Body::SetSlotRate:
         return Body(SetSlotRate{Hertz::fromSi(m.body_as_SetSlotRate()->rate_Hz())});
     case wire::Body::Swap:

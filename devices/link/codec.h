@@ -19,6 +19,7 @@ Result<Message> decoded(std::span<const std::byte> bytes);
 inline constexpr int kMaxSide = 8192;
 inline constexpr int kMaxImages = 256;
 inline constexpr int kMaxSlots = 1024;
+inline constexpr int kMaxHarmonics = 64;  ///< of a lens wave, the mean included
 /// Tiles of all images of one program together: 1 GB of light.
 inline constexpr int kMaxTiles = 262144;
 

@@ -11,9 +11,9 @@ namespace ilf::devices {
 /// lens rings at about 60 Hz; the emulator of the calibration issue does that.)
 inline constexpr Second kLensTimeConstant = 8.3_ms;
 
-/// Mean m and amplitude a of the wave each approach what was told, from t0 on, times in CLOCK_MONOTONIC nanoseconds:
-///     P(t) = m + dm e - (a + da e) cos(2 pi (t - t0 - tLow) rate),   e = exp(-(t - t0) / tau)
-/// dm, da: what was missing at t0. A value: `told` gives the lens that follows a new wave.
+/// Each harmonic c_k of the power approaches what was told, from t0 on, times in CLOCK_MONOTONIC nanoseconds:
+///     c_k(t) = told_k + e missing_k,   e = exp(-(t - t0) / tau)
+/// missing: what was missing at t0. A value: `told` gives the lens that follows a new wave.
 class LensModel {
 public:
     /// At rest, 0 D.
@@ -25,7 +25,7 @@ public:
     std::int64_t startedNs() const { return startedNs_; }
 
     Dioptre powerAt(std::int64_t now_ns) const;
-    /// Bound of |power - told wave| from now on; the old wave's amplitude counts whole, whatever its phase.
+    /// Bound of |power - told wave| from now on, whatever the phases.
     Dioptre errorAt(std::int64_t now_ns) const;
     /// When errorAt falls to `budget`.
     std::int64_t settledNs(Dioptre budget) const;
@@ -34,8 +34,8 @@ public:
 
 private:
     Waveform wave_;
-    Dioptre missing_;  ///< bound of what was missing when the wave began
-    Dioptre missingMean_, missingAmplitude_;
+    Harmonics missing_;      ///< when the wave began
+    Dioptre missingAtMost_;  ///< its largest value, whatever the phase
     std::int64_t startedNs_ = 0;
 };
 

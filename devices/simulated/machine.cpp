@@ -19,15 +19,11 @@ std::string written(Dioptre power) {
 }
 
 bool canBePlayed(const Waveform& w) {
-    return isFinite(w.rest) && isFinite(w.low) && isFinite(w.high) && isFinite(w.tLow) && isFinite(w.rate) &&
-           w.rate > 0.0_Hz && w.low <= w.high;
+    return isFinite(w.rest) && isFinite(w.low) && isFinite(w.high) && isFinite(w.rate) && w.rate > 0.0_Hz &&
+           w.low <= w.high && isFinite(w.power) && isFinite(w.drive);
 }
 
-Waveform resting(const Waveform& w) {
-    Waveform rest = w;
-    rest.low = rest.high = w.rest;
-    return rest;
-}
+Waveform resting(const Waveform& w) { return stillWave(w.rest, w.rest, w.rate); }
 
 std::uint64_t imageHash(const LightImage& image) {
     Program alone;

@@ -129,9 +129,8 @@ void SimulatedStage::safeLight() noexcept {
             const auto rest = ask<Done>(port_, LensToRest{});
             resting = rest.has_value();
             if (!resting) continue;
-            Waveform wave = predicted_.wave();
-            wave.low = wave.high = wave.rest;
-            predicted_ = predicted_.told(wave, rest->at_ns);
+            const Waveform& wave = predicted_.wave();
+            predicted_ = predicted_.told(stillWave(wave.rest, wave.rest, wave.rate), rest->at_ns);
         }
         if (!steady) loadedHash_ = 0;  // whoever answers next may be another device with an empty buffer
         if (steady && !read()) loadedHash_ = 0;

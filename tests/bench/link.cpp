@@ -24,7 +24,7 @@ constexpr Size kProjector{1024, 768};
 /// A program whose tiles are all different, so that nothing is saved by uniform tiles.
 Program busyProgram() {
     Program p;
-    p.waveform = {0.0_D, 0.0_D, 2.27_D, 60.0_Hz, 0.0_s};
+    p.waveform = idealSine(0.0_D, 0.0_D, 2.27_D, 60.0_Hz, 0.0_s);
     p.projectorDelay = 0.46_ms;
     p.projector = kProjector;
     p.imageOfSlot = {0, 0, -1, -1, -1, -1, -1, 1, 1, 1, -1, -1, -1, -1, -1, 0};

@@ -27,7 +27,7 @@ inline LightImage picture(Size size, std::uint32_t seed) {
 /// Two images in 16 slots under a sweep from rest to `high`.
 inline Program program(std::uint32_t seed, Dioptre high = 2.27_D, Size size = {200, 130}) {
     Program p;
-    p.waveform = {0.0_D, 0.0_D, high, 60.0_Hz, 0.0_s};
+    p.waveform = idealSine(0.0_D, 0.0_D, high, 60.0_Hz, 0.0_s);
     p.slotRate = 960.0_Hz;
     p.projectorDelay = 0.46_ms;
     p.projector = size;

@@ -84,12 +84,12 @@ inline double received(const Compiled& compiled, Metre distance, Point<Projector
     return sum;
 }
 
-struct Extremes {
+struct LightRange {
     double least = 1e9, most = -1e9;
     double worst() const { return std::max(std::abs(least - 1.0), std::abs(most - 1.0)); }
 };
-inline Extremes receivedOver(const Compiled& compiled, Metre distance, PixelRect<ProjectorFrame> rect, int step) {
-    Extremes extremes;
+inline LightRange receivedOver(const Compiled& compiled, Metre distance, PixelRect<ProjectorFrame> rect, int step) {
+    LightRange extremes;
     for (int y = rect.y0; y < rect.y1; y += step) {
         for (int x = rect.x0; x < rect.x1; x += step) {
             const double v = received(compiled, distance, {x + 0.5, y + 0.5});

@@ -11,7 +11,7 @@ using namespace ilf;
 
 Program someProgram() {
     Program program;
-    program.waveform = {0.0_D, 0.0_D, 2.2_D, 60.0_Hz, 0.0_s};
+    program.waveform = idealSine(0.0_D, 0.0_D, 2.2_D, 60.0_Hz, 0.0_s);
     program.projector = {100, 70};
     program.images = {TileGrid({100, 70}, 255), TileGrid({100, 70}, 0)};
     program.imageOfSlot.assign(16, Program::kDark);

@@ -26,10 +26,10 @@ TEST_CASE("closed form: a seam around the optical centre and one aside of it are
     for (const auto& [a, b] : {std::pair{kOverA, kOverB}, std::pair{kAsideA, kAsideB}}) {
         const Compiled compiled = compiledFrom(scene(a, b, Blending::closedForm));
         REQUIRE(compiled.plan.sweeps());
-        const Extremes light = receivedOver(compiled, 0.5_m,
-                                            {static_cast<int>(a.x) - 30, static_cast<int>(a.y) - 30,
-                                             static_cast<int>(b.x) + 30, static_cast<int>(b.y) + 30},
-                                            3);
+        const LightRange light = receivedOver(compiled, 0.5_m,
+                                              {static_cast<int>(a.x) - 30, static_cast<int>(a.y) - 30,
+                                               static_cast<int>(b.x) + 30, static_cast<int>(b.y) + 30},
+                                              3);
         INFO(light.least, " ", light.most);
         CHECK(light.worst() < 0.015);
         CHECK(compiled.counters.seamTiles > 0);
@@ -42,7 +42,7 @@ TEST_CASE("none: overlap is bright where blurred light lies nearer the centre, g
     };
     // The right border of a region that lies aside: its blurred light is nearer the centre and grows over the border.
     const Compiled none = compiledFrom(scene(kAsideA, kAsideB, Blending::none));
-    const Extremes outer = along(none, 465, 500), inner = along(none, 345, 375);
+    const LightRange outer = along(none, 465, 500), inner = along(none, 345, 375);
     CHECK(outer.most > 1.5);
     CHECK(outer.least > 0.97);
     CHECK(inner.least < 0.6);
@@ -82,7 +82,7 @@ TEST_CASE("two blurs of different strength side by side stay even") {
     document.regions = {Box<Region>(strong), Box<Region>(weak)};
     const Compiled compiled = compiledFrom(document);
     REQUIRE(compiled.plan.levels.size() == 3);
-    const Extremes light = receivedOver(compiled, 0.5_m, {280, 40, 500, 220}, 4);
+    const LightRange light = receivedOver(compiled, 0.5_m, {280, 40, 500, 220}, 4);
     INFO(light.least, " ", light.most);
     CHECK(light.worst() < 0.05);
 }

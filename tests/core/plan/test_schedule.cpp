@@ -10,18 +10,20 @@ using namespace ilf;
 
 namespace {
 
+/// From 0 D to `high`, lowest in the middle of slot 0.
+Waveform sine(Dioptre high, const Rig& rig) { return idealSine(0.0_D, 0.0_D, high, rig.sweepRate, 0.5 / rig.slotRate); }
+
 Schedule twoLevels(Dioptre high) {
     const Rig rig;
-    const Waveform sine = sineWaveform(0.0_D, 0.0_D, high, rig);
-    return scheduled(sine, rig, {{LevelKind::focus, 0.0_D, {}}, {LevelKind::blur, high, high - 0.2_D}});
+    return scheduled(sine(high, rig), rig, {{LevelKind::focus, 0.0_D, {}}, {LevelKind::blur, high, high - 0.2_D}});
 }
 
-double squareErrorByHand(const Waveform& sine, const Slot& slot, Dioptre level) {
+double squareErrorByHand(const Waveform& wave, const Slot& slot, Dioptre level) {
     double sum = 0.0;
     const int steps = 2000;
     for (int i = 0; i < steps; ++i) {
         const Second t = slot.start + ((i + 0.5) / steps) * slot.duration;
-        sum += std::pow((sine.powerAt(t) - level).si(), 2);
+        sum += std::pow((wave.powerAt(t) - level).si(), 2);
     }
     return sum / steps;
 }
@@ -29,9 +31,9 @@ double squareErrorByHand(const Waveform& sine, const Slot& slot, Dioptre level) 
 }  // namespace
 
 TEST_CASE("schedule: the sine's ends fall on the middles of slots 0 and 8") {
-    const Waveform sine = twoLevels(2.2_D).waveform;
-    CHECK(sine.powerAt(0.5 / 960.0_Hz).si() == doctest::Approx(0.0));
-    CHECK(sine.powerAt(8.5 / 960.0_Hz).si() == doctest::Approx(2.2));
+    const Waveform wave = twoLevels(2.2_D).waveform;
+    CHECK(wave.powerAt(0.5 / 960.0_Hz).si() == doctest::Approx(0.0));
+    CHECK(wave.powerAt(8.5 / 960.0_Hz).si() == doctest::Approx(2.2));
 }
 
 TEST_CASE("schedule: 2.2 D at 960 Hz gives three slots a level, or a fifth of the light") {
@@ -56,7 +58,7 @@ TEST_CASE("schedule: errors of slots are those of the waveform, by brute integra
 
 TEST_CASE("schedule: a lens that stands still lights every slot fully") {
     const Rig rig;
-    const Schedule s = scheduled(sineWaveform(0.0_D, 0.0_D, 0.0_D, rig), rig, {{LevelKind::focus, 0.0_D, {}}});
+    const Schedule s = scheduled(sine(0.0_D, rig), rig, {{LevelKind::focus, 0.0_D, {}}});
     CHECK(s.levels[0].slots.size() == 16);
     CHECK(s.light == 1.0);
     CHECK(s.waveform.still());
@@ -65,7 +67,7 @@ TEST_CASE("schedule: a lens that stands still lights every slot fully") {
 TEST_CASE("schedule: a level in the middle of a fast sweep gets no slot") {
     const Rig rig;
     const Schedule s =
-        scheduled(sineWaveform(0.0_D, 0.0_D, 4.0_D, rig), rig,
+        scheduled(sine(4.0_D, rig), rig,
                   {{LevelKind::focus, 0.0_D, {}}, {LevelKind::focus, 2.2_D, {}}, {LevelKind::blur, 4.0_D, {}}});
     CHECK(s.levels[1].slots.empty());
 }
@@ -76,7 +78,7 @@ TEST_CASE("schedule: laws") {
         const Dioptre high = Dioptre::fromSi(0.01 * *rc::gen::inRange(30, 900));
         const Dioptre middle = *rc::gen::inRange(5, 95) * 0.01 * high;
         const Schedule s = scheduled(
-            sineWaveform(0.0_D, 0.0_D, high, rig), rig,
+            sine(high, rig), rig,
             {{LevelKind::focus, 0.0_D, {}}, {LevelKind::blur, middle, {}}, {LevelKind::blur, high, high - 0.2_D}});
         std::set<int> taken;
         std::size_t slots = 0;

@@ -13,8 +13,26 @@ double anyNumber() {
 }
 std::uint64_t anyWord() { return *rc::gen::arbitrary<std::uint64_t>(); }
 Dioptre anyPower() { return Dioptre::fromSi(anyNumber()); }
+Harmonics anyHarmonics() {
+    Harmonics f;
+    f.c.resize(*rc::gen::inRange<std::size_t>(0, 6));
+    for (auto& c : f.c)
+        c = {anyNumber(), anyNumber()};
+    return f;
+}
 Waveform anyWave() {
-    return {anyPower(), anyPower(), anyPower(), Hertz::fromSi(anyNumber()), Second::fromSi(anyNumber())};
+    Waveform wave;
+    wave.mode = *rc::gen::element(WaveMode::idealSine, WaveMode::paper, WaveMode::shaped);
+    wave.rest = anyPower();
+    wave.low = anyPower();
+    wave.high = anyPower();
+    wave.rate = Hertz::fromSi(anyNumber());
+    wave.power = anyHarmonics();
+    wave.drive = anyHarmonics();
+    wave.unit = *rc::gen::element(DriveUnit::volt, DriveUnit::ampere);
+    wave.wave = *rc::gen::arbitrary<std::int64_t>();
+    wave.provenance = *rc::gen::element(Provenance::simulated, Provenance::measured, Provenance::imported);
+    return wave;
 }
 LightMode anyLight() { return *rc::gen::element(LightMode::steady, LightMode::slotted); }
 LensMode anyLens() { return *rc::gen::element(LensMode::rest, LensMode::holding, LensMode::sweeping); }

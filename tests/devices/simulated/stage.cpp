@@ -115,7 +115,7 @@ TEST_CASE("stage: a heartbeat notices devices that do something else than they w
 
 TEST_CASE("stage: safe light rests the lens at the wearer's resting power") {
     auto program = test::program(1);
-    program.waveform = {1.5_D, 1.5_D, 3.0_D, 60.0_Hz, 0.0_s};
+    program.waveform = idealSine(1.5_D, 1.5_D, 3.0_D, 60.0_Hz, 0.0_s);
     VirtualStage stage;
     REQUIRE(played(stage, program));
     stage.safeLight();
