@@ -5,6 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "core/optics/accommodation.h"
+#include "core/optics/forms.h"
+
 namespace ilf {
 namespace {
 
@@ -17,15 +20,17 @@ Projective projective(Metre distance) {
     return std::isinf(distance.si()) ? Projective{1.0, 0.0} : Projective{distance.si(), 1.0};
 }
 
-/// N = p + e t with t = q - p P (w + e - w e P for a finite distance w): positive wherever e P < 1.
-struct Ray {
+/// The forms' t and N (w + e - w e P for a finite distance w): N is positive wherever e P < 1. The other forms are not
+/// used here: they start from r and P_e, whose 1 - r P_e would cancel where this eye has its ametropia.
+struct Passage {
     double p, q, t, n;
 };
 
-Ray ray(const EyeOptics& eye, Metre distance, Dioptre lens) {
+Passage passage(const EyeOptics& eye, Metre distance, Dioptre lens) {
+    using Fast = forms::FastArithmetic<double>;
     const auto [p, q] = projective(distance);
-    const double t = std::fma(-p, lens.si(), q);
-    return {p, q, t, std::fma(eye.lensToPupil.si(), t, p)};
+    const double t = forms::vergenceTerm<Fast>(p, q, lens.si());
+    return {p, q, t, forms::pupilTerm<Fast>(p, t, eye.lensToPupil.si())};
 }
 
 Metre confusionOf(const CircleOfConfusion& confusion, Metre retina) {
@@ -65,7 +70,7 @@ EyeOptics eyeOptics(const Wearer& wearer) {
     return eye;
 }
 
-Dioptre accommodationAtAge(double years) { return Dioptre::fromSi(std::max(0.0, 18.5 - 0.3 * years)); }
+Dioptre accommodationAtAge(double years) { return accommodationByAge(years).mean; }
 
 Dioptre acceptableDefocus(const EyeOptics& eye) {
     return Dioptre::fromSi(eye.confusion.si() / (eye.pupil.si() * eye.retina.si()));
@@ -105,7 +110,7 @@ Result<Dioptre> minimumBlurPower(const EyeOptics& eye, Metre distance) {
 }
 
 Dioptre defocus(const EyeOptics& eye, Metre distance, Dioptre lens, Dioptre accommodating) {
-    const Ray r = ray(eye, distance, lens);
+    const Passage r = passage(eye, distance, lens);
     return Dioptre::fromSi(-r.t / r.n) - eye.ametropia + accommodating;
 }
 
@@ -114,7 +119,7 @@ Metre blurDiameter(const EyeOptics& eye, Metre distance, Dioptre lens) {
 }
 
 Dioptre defocusAttending(const EyeOptics& eye, Metre distance, Dioptre lens, Metre attended, Dioptre attendedLens) {
-    const Ray r = ray(eye, distance, lens), a = ray(eye, attended, attendedLens);
+    const Passage r = passage(eye, distance, lens), a = passage(eye, attended, attendedLens);
     // q_a p - q p_a + p p_a (P - P_a): (w - g) + w g (P - P0) for finite distances.
     const double apart = std::fma(a.q, r.p, -(r.q * a.p));
     return Dioptre::fromSi(std::fma(r.p * a.p, (lens - attendedLens).si(), apart) / (r.n * a.n));
@@ -125,12 +130,12 @@ Metre blurDiameterAttending(const EyeOptics& eye, Metre distance, Dioptre lens, 
 }
 
 double magnification(const EyeOptics& eye, Metre distance, Dioptre from, Dioptre to) {
-    return ray(eye, distance, from).n / ray(eye, distance, to).n;
+    return passage(eye, distance, from).n / passage(eye, distance, to).n;
 }
 
 Metre blurRadiusOnSurface(const EyeOptics& eye, Metre distance, Dioptre rest, Dioptre lens) {
     const double angle = eye.pupil * abs(defocusAttending(eye, distance, lens, distance, rest));
-    return Metre::fromSi(ray(eye, distance, rest).n * 0.5 * angle);
+    return Metre::fromSi(passage(eye, distance, rest).n * 0.5 * angle);
 }
 
 }  // namespace ilf

@@ -1,9 +1,33 @@
 // The closed forms of the optics as quotients of polynomials, once, for every arithmetic that evaluates them.
 #pragma once
 
+#include <cmath>
+
 #include "core/optics/kernel.h"
 
 namespace ilf::forms {
+
+/// fma in the type itself: the fast path's.
+template <class Real>
+struct FastArithmetic {
+    using In = Real;
+    using Number = Real;
+    static Real product(Real x, Real y) { return x * y; }
+    static Real mulAdd(Real x, Real y, Real z) { return std::fma(x, y, z); }
+    static Real negated(Real x) { return -x; }
+};
+
+/// t = q - p P: the vergence behind the lens, of the other sign and times p.
+template <class A>
+typename A::Number vergenceTerm(const typename A::In& p, const typename A::In& q, const typename A::In& power) {
+    return A::mulAdd(-p, power, q);
+}
+
+/// N = p + e t.
+template <class A>
+typename A::Number pupilTerm(const typename A::In& p, const typename A::Number& t, const typename A::In& e) {
+    return A::mulAdd(t, e, p);
+}
 
 template <class Number>
 struct Ratio {
@@ -25,7 +49,7 @@ struct Terms {
     template <class Input>
     explicit Terms(const Input& in)
         : p(in.p), q(in.q), power(in.power), e(in.lensToPupil), r(in.retina), eyePower(in.eyePower), pupil(in.pupil),
-          confusion(in.confusion), x1(in.height), t(A::mulAdd(-p, power, q)), n(A::mulAdd(t, e, p)),
+          confusion(in.confusion), x1(in.height), t(vergenceTerm<A>(p, q, power)), n(pupilTerm<A>(p, t, e)),
           a(A::mulAdd(-r, eyePower, In(1.0))), i(A::mulAdd(a, n, A::product(t, r))) {}
 
     /// D_r is its absolute value; negative in front of the retina.

@@ -22,6 +22,8 @@
 namespace ilf {
 namespace {
 
+using forms::FastArithmetic;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool processorHasFma() {
@@ -53,15 +55,6 @@ struct ExactArithmetic {
     static Number product(const Dyadic& x, const Dyadic& y) { return x * y; }
     static Number mulAdd(const Dyadic& x, const Dyadic& y, const Dyadic& z) { return x * y + z; }
     static Number negated(const Dyadic& x) { return -x; }
-};
-
-template <class Real>
-struct FastArithmetic {
-    using In = Real;
-    using Number = Real;
-    static Real product(Real x, Real y) { return x * y; }
-    static Real mulAdd(Real x, Real y, Real z) { return std::fma(x, y, z); }
-    static Real negated(Real x) { return -x; }
 };
 
 template <class Real>
