@@ -29,15 +29,20 @@ struct Hold {
     double power_D = 0.0;
 };
 /// Holds for `levels` ascending, `duty` of the sweep each: up the levels and down again, lowest about `lowAt`. With two
-/// levels the holds lie half a sweep apart.
+/// levels the holds lie half a sweep apart; levels between the ends are held twice, half as long.
 std::vector<Hold> holdsFor(std::span<const double> levels_D, double duty, double lowAt);
+/// Refuses none, holds that do not fit in one sweep or overlap, and numbers that are not finite.
+Result<void> checkedHolds(std::span<const Hold> holds);
+/// The largest |power - level| inside the holds, sampled 512 times a sweep and at the holds' ends.
+double largestErrorIn(std::span<const Hold> holds, const Harmonics& power);
 
 struct ShapedDesign {
     Harmonics drive, power;  ///< power as predicted by the response
     double largestError_D = 0.0;
 };
 /// The drive of at most `harmonics` harmonics whose predicted largest error inside the holds is least, its peak and rms
-/// within the limits (Lawson's iteratively reweighted least squares; scheduling 3.4).
+/// and the lens's power within the limits (scheduling 3.4; solved as a convex problem, see minimax.h). Refuses
+/// levels the limits keep out of reach.
 Result<ShapedDesign> designed(const LensResponse& response, std::span<const Hold> holds, int harmonics,
                               const DriveLimits& limits);
 
