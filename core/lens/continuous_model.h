@@ -2,6 +2,7 @@
 #pragma once
 
 #include <complex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,41 +10,70 @@
 
 namespace ilf {
 
-/// P_k(o, a) for u(x) = o + a sin(2 pi x), k = 0..16, total degree 4 or 5 (scheduling 1.4). Odd symmetry in a is built
-/// in: P_k(o, -a) is P_k(o, a) delayed by half a period.
+/// u(x) = offset + amplitude sin(2 pi x)
+struct SineDrive {
+    double offset = 0.0, amplitude = 0.0;
+};
+
+/// P_k(o, a) for u(x) = o + a sin(2 pi x), k = 0..16, of a total degree from 3 to 8 (scheduling 1.4). Symmetry in a is
+/// built in: P_k(o, -a) is P_k(o, a) delayed by half a period, so harmonic k has only powers of a that are odd or even
+/// as k is, and nothing but the mean is left at a = 0.
 struct ContinuousModel {
     Hertz rate = 60.0_Hz;
     DriveUnit unit = DriveUnit::volt;
     int degree = 4;
-    double offsetScale = 1.0, amplitudeScale = 1.0;  ///< polynomials are of o / offsetScale, a / amplitudeScale
+    double offsetScale = 1.0, amplitudeScale = 1.0;  ///< polynomials are of (o - middle) / scale and a / scale
     double offsetMiddle = 0.0;
-    std::vector<std::vector<std::complex<double>>> terms;  ///< [harmonic][term]
-    double driveLow = 0.0, driveHigh = 0.0;                ///< drives outside the records' range are not asked of it
-    double rmsFit_D = 0.0, largestFit_D = 0.0;             ///< against the records it was fitted to, noise included
-    double temperature_C = 30.0;
+    std::vector<std::vector<std::complex<double>>> terms;  ///< [harmonic][term], terms as `modelTerms` lists them
+    double driveLow = 0.0, driveHigh = 0.0;                ///< the least and the largest drive of the records
+    /// The records' drives and their mirror images (o, -a) lie inside this convex polygon, counterclockwise. Drives
+    /// outside it are not asked of the model.
+    std::vector<SineDrive> border;
+    double rmsFit_D = 0.0, largestFit_D = 0.0;  ///< against the records it was fitted to, noise included
+    double temperature_C = 30.0;                ///< the mean of the records'; powers are at this one
     Provenance provenance = Provenance::simulated;
+
+    /// Where inversions start: the extremes at the nodes of a coarse grid inside the border, row by row of amplitude.
+    struct Row {
+        double amplitude = 0.0, offsetLow = 0.0, offsetHigh = 0.0;
+        std::vector<double> low_D, high_D;  ///< offsets equally spaced from offsetLow to offsetHigh
+    };
+    std::vector<Row> map;  ///< what `mapped` gives
 
     Harmonics power(double offset, double amplitude) const;
 };
 
-/// Needs records of family sine of one rate; refuses too few for a polynomial of degree 3 with one sentence.
-Result<ContinuousModel> fitted(std::span<const LensRecord> records);
+inline constexpr int kLargestModelDegree = 8;
 
-/// The drives to record for a fit: `count` (offset, amplitude) pairs that cover [driveLow, driveHigh] as a
-/// space-filling design, the borders included. Deterministic.
-struct SineDrive {
-    double offset = 0.0, amplitude = 0.0;
+/// Exponents of one term o^i a^j.
+struct ModelTerm {
+    int i = 0, j = 0;
 };
-std::vector<SineDrive> drivesToRecord(double driveLow, double driveHigh, std::size_t count);
+/// The terms of harmonic `k`, in the order of ContinuousModel::terms.
+std::vector<ModelTerm> modelTerms(int degree, int k);
 
-/// The drive whose predicted extremes are `low` and `high` to 1e-9 D; none when it lies outside the records' range.
+/// Needs records of family sine of one rate, about 40; refuses too few for a polynomial of degree 3 with one sentence.
+/// The degree is the one with the least error in predicting each record from the others (PRESS). Temperatures that
+/// differ are levelled by `drift_D_per_C`.
+Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift_D_per_C = 0.033);
+/// The grid of a model's `map`, from everything else in it.
+std::vector<ContinuousModel::Row> mapped(const ContinuousModel& model);
+
+/// The drives to record for a fit: `count` (at least 9) pairs with `driveLow` <= offset +- amplitude <= `driveHigh`,
+/// the borders included, nearer to each other there, as polynomials need it. `largestAmplitude` stretches or flattens
+/// that triangle where a lens answers a sine more or less than a steady drive; 0: half of the range. Deterministic.
+std::vector<SineDrive> drivesToRecord(double driveLow, double driveHigh, std::size_t count,
+                                      double largestAmplitude = 0.0);
+
+/// The drive of least amplitude whose predicted extremes are `low` and `high` to 1e-9 D; none when it lies outside the
+/// records' range or `low` > `high`.
 struct Inverted {
     SineDrive drive;
     Harmonics power;  ///< at the model's temperature plus `shift`
 };
 std::optional<Inverted> inverted(const ContinuousModel& model, double low, double high, double shift);
 
-/// The largest `high` that `inverted` reaches with this `low`, to 1 mD.
+/// The largest `high` that `inverted` reaches with this `low`, to 1 mD; `low` itself where not even that is reached.
 double largestHigh(const ContinuousModel& model, double low, double shift);
 
 }  // namespace ilf

@@ -1,0 +1,359 @@
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
+
+#include "core/lens/continuous_model.h"
+#include "core/lens/sine_record.h"
+
+namespace ilf {
+namespace {
+
+constexpr std::size_t kHarmonics = kRecordHarmonics + 1, kMostTerms = 32, kMostDegree = kLargestModelDegree;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+/// Enough that the lowest sample lies beside the lowest extreme: eight for each period of the highest harmonic.
+constexpr std::size_t kSamples = 128;
+constexpr double kNearEnough_D = 1e-11;
+
+/// One period, real and imaginary parts apart so that loops over them vectorise.
+struct Wave {
+    std::array<double, kHarmonics> re{}, im{};
+
+    double at(double x) const {
+        const double c = std::cos(kTwoPi * x), s = std::sin(kTwoPi * x);
+        double zr = 1.0, zi = 0.0, sum = re[0];
+        for (std::size_t k = 1; k < kHarmonics; ++k) {
+            const double turned = zr * c - zi * s;
+            zi = zr * s + zi * c;
+            zr = turned;
+            sum += re[k] * zr - im[k] * zi;
+        }
+        return sum;
+    }
+};
+
+/// A wave at a drive, and how each harmonic changes with offset and amplitude.
+struct Bent {
+    Wave power, byOffset, byAmplitude;
+};
+
+/// The model's polynomials laid out for speed; drives are in its scaled units.
+class Polynomials {
+public:
+    explicit Polynomials(const ContinuousModel& model) : model_(model) {
+        assert(model.degree <= kLargestModelDegree);
+        for (int kind = 0; kind < 3; ++kind)
+            count_[static_cast<std::size_t>(kind)] = listTerms(model.degree, kind);
+    }
+
+    Bent at(double o, double a) const {
+        std::array<double, kMostDegree + 1> op{1.0}, ap{1.0};
+        for (std::size_t i = 1; i <= kMostDegree; ++i) {
+            op[i] = op[i - 1] * o;
+            ap[i] = ap[i - 1] * a;
+        }
+        Bent wave;
+        for (std::size_t kind = 0; kind < 3; ++kind) {
+            std::array<double, kMostTerms> value, byO, byA;
+            for (std::size_t t = 0; t < count_[kind]; ++t) {
+                const auto i = static_cast<std::size_t>(terms_[kind][t].i),
+                           j = static_cast<std::size_t>(terms_[kind][t].j);
+                value[t] = op[i] * ap[j];
+                byO[t] = i == 0 ? 0.0 : static_cast<double>(i) * op[i - 1] * ap[j];
+                byA[t] = j == 0 ? 0.0 : static_cast<double>(j) * op[i] * ap[j - 1];
+            }
+            for (std::size_t k = kind; k < std::min(kHarmonics, model_.terms.size()); k += kind == 0 ? kHarmonics : 2) {
+                for (std::size_t t = 0; t < count_[kind]; ++t) {
+                    const double re = model_.terms[k][t].real(), im = model_.terms[k][t].imag();
+                    wave.power.re[k] += re * value[t];
+                    wave.power.im[k] += im * value[t];
+                    wave.byOffset.re[k] += re * byO[t];
+                    wave.byOffset.im[k] += im * byO[t];
+                    wave.byAmplitude.re[k] += re * byA[t];
+                    wave.byAmplitude.im[k] += im * byA[t];
+                }
+            }
+        }
+        return wave;
+    }
+
+private:
+    std::size_t listTerms(int degree, int kind) {
+        std::size_t count = 0;
+        for (const ModelTerm& term : modelTerms(degree, kind))
+            terms_[static_cast<std::size_t>(kind)][count++] = term;
+        return count;
+    }
+
+    const ContinuousModel& model_;
+    std::array<std::array<ModelTerm, kMostTerms>, 3> terms_{};
+    std::array<std::size_t, 3> count_{};
+};
+
+struct Turns {
+    std::array<std::array<double, kSamples>, kHarmonics> cosine, sine;
+    Turns() {
+        for (std::size_t k = 0; k < kHarmonics; ++k) {
+            for (std::size_t i = 0; i < kSamples; ++i) {
+                const double x = kTwoPi * static_cast<double>(k * i % kSamples) / double(kSamples);
+                cosine[k][i] = std::cos(x);
+                sine[k][i] = std::sin(x);
+            }
+        }
+    }
+};
+
+/// Newton on the slope, within one sample of `x`.
+double refined(const Wave& wave, double x) {
+    const double from = x - 1.0 / double(kSamples), to = x + 1.0 / double(kSamples);
+    for (int step = 0; step < 6; ++step) {
+        const double c = std::cos(kTwoPi * x), s = std::sin(kTwoPi * x);
+        double zr = 1.0, zi = 0.0, slope = 0.0, curvature = 0.0;
+        for (std::size_t k = 1; k < kHarmonics; ++k) {
+            const double turned = zr * c - zi * s;
+            zi = zr * s + zi * c;
+            zr = turned;
+            const double w = kTwoPi * static_cast<double>(k);
+            slope -= w * (wave.re[k] * zi + wave.im[k] * zr);
+            curvature -= w * w * (wave.re[k] * zr - wave.im[k] * zi);
+        }
+        if (curvature == 0.0) break;
+        const double next = std::clamp(x - slope / curvature, from, to);
+        if (std::abs(next - x) < 1e-13) return next;
+        x = next;
+    }
+    return x;
+}
+
+Extremes extremes(const Wave& wave) {
+    static const Turns turns;
+    std::array<double, kSamples> samples;
+    samples.fill(wave.re[0]);
+    for (std::size_t k = 1; k < kHarmonics; ++k) {
+        for (std::size_t i = 0; i < kSamples; ++i)
+            samples[i] += wave.re[k] * turns.cosine[k][i] - wave.im[k] * turns.sine[k][i];
+    }
+    const auto [low, high] = std::ranges::minmax_element(samples);
+    Extremes e;
+    e.atLow = refined(wave, static_cast<double>(low - samples.begin()) / double(kSamples));
+    e.atHigh = refined(wave, static_cast<double>(high - samples.begin()) / double(kSamples));
+    e.low = wave.at(e.atLow);
+    e.high = wave.at(e.atHigh);
+    return e;
+}
+
+SineDrive scaled(const ContinuousModel& model, const SineDrive& drive) {
+    return {(drive.offset - model.offsetMiddle) / model.offsetScale, drive.amplitude / model.amplitudeScale};
+}
+SineDrive unscaled(const ContinuousModel& model, const SineDrive& drive) {
+    return {model.offsetMiddle + drive.offset * model.offsetScale, drive.amplitude * model.amplitudeScale};
+}
+
+/// Inside the border, or outside by less than rounding.
+bool within(const ContinuousModel& model, const SineDrive& drive) {
+    const double slack = 1e-9 * model.offsetScale * model.amplitudeScale;
+    for (std::size_t i = 0; i < model.border.size(); ++i) {
+        const SineDrive &p = model.border[i], &q = model.border[(i + 1) % model.border.size()];
+        const double area = (q.offset - p.offset) * (drive.amplitude - p.amplitude) -
+                            (q.amplitude - p.amplitude) * (drive.offset - p.offset);
+        if (area < -slack) return false;
+    }
+    return !model.border.empty() && drive.amplitude >= 0.0;
+}
+
+/// Where the border cuts the line of this amplitude.
+std::pair<double, double> offsetsAt(const ContinuousModel& model, double amplitude) {
+    double left = std::numeric_limits<double>::infinity(), right = -left;
+    for (std::size_t i = 0; i < model.border.size(); ++i) {
+        const SineDrive &p = model.border[i], &q = model.border[(i + 1) % model.border.size()];
+        if ((p.amplitude - amplitude) * (q.amplitude - amplitude) > 0.0) continue;
+        const double rise = q.amplitude - p.amplitude;
+        const double part = rise == 0.0 ? 0.0 : (amplitude - p.amplitude) / rise;
+        const double offset = p.offset + part * (q.offset - p.offset);
+        left = std::min({left, offset, rise == 0.0 ? q.offset : offset});
+        right = std::max({right, offset, rise == 0.0 ? q.offset : offset});
+    }
+    return {left, right};
+}
+
+/// Newton in two dimensions: by the envelope theorem the extremes change as the power does where they lie.
+std::optional<SineDrive> solved(const Polynomials& polynomials, SineDrive drive, double low, double high) {
+    for (int step = 0; step < 20; ++step) {
+        const Bent wave = polynomials.at(drive.offset, drive.amplitude);
+        const Extremes e = extremes(wave.power);
+        const double offLow = e.low - low, offHigh = e.high - high;
+        if (std::max(std::abs(offLow), std::abs(offHigh)) < kNearEnough_D) return drive;
+        const double lowByO = wave.byOffset.at(e.atLow), lowByA = wave.byAmplitude.at(e.atLow);
+        const double highByO = wave.byOffset.at(e.atHigh), highByA = wave.byAmplitude.at(e.atHigh);
+        const double det = lowByO * highByA - lowByA * highByO;
+        if (det == 0.0) return std::nullopt;
+        double o = (offLow * highByA - offHigh * lowByA) / det, a = (offHigh * lowByO - offLow * highByO) / det;
+        // Damped: a quarter of the records' range at once, and half of the way to no amplitude.
+        const double most = std::max(std::abs(o), std::abs(a));
+        if (most > 0.25) o *= 0.25 / most, a *= 0.25 / most;
+        drive.offset -= o;
+        drive.amplitude = std::max(drive.amplitude - a, 0.5 * drive.amplitude);
+        if (!(std::abs(drive.offset) < 2.0 && drive.amplitude < 2.0)) return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+/// The still lens: no amplitude, no extremes to follow.
+std::optional<SineDrive> solvedStill(const Polynomials& polynomials, double offset, double power) {
+    for (int step = 0; step < 20; ++step) {
+        const Bent wave = polynomials.at(offset, 0.0);
+        const double off = wave.power.re[0] - power;
+        if (std::abs(off) < kNearEnough_D) return SineDrive{offset, 0.0};
+        if (wave.byOffset.re[0] == 0.0) return std::nullopt;
+        offset -= std::clamp(off / wave.byOffset.re[0], -0.25, 0.25);
+    }
+    return std::nullopt;
+}
+
+/// Where on a row of the map the lowest power is `low`.
+struct OnRow {
+    double offset = 0.0, high = 0.0;
+};
+std::optional<OnRow> onRow(const ContinuousModel::Row& row, double low) {
+    const std::size_t last = row.low_D.size() - 1;
+    for (std::size_t i = 0; i < last; ++i) {
+        const double from = row.low_D[i] - low, to = row.low_D[i + 1] - low;
+        if (from * to > 0.0 || from == to) continue;
+        const double part = from / (from - to);
+        const double along = (static_cast<double>(i) + part) / static_cast<double>(last);
+        return OnRow{row.offsetLow + along * (row.offsetHigh - row.offsetLow),
+                     row.high_D[i] + part * (row.high_D[i + 1] - row.high_D[i])};
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<ContinuousModel::Row> mapped(const ContinuousModel& model) {
+    constexpr std::size_t kRows = 17, kColumns = 13;
+    const Polynomials polynomials(model);
+    double tallest = 0.0;
+    for (const SineDrive& corner : model.border)
+        tallest = std::max(tallest, corner.amplitude);
+    std::vector<ContinuousModel::Row> map(kRows);
+    for (std::size_t r = 0; r < kRows; ++r) {
+        ContinuousModel::Row& row = map[r];
+        row.amplitude = tallest * static_cast<double>(r) / double(kRows - 1);
+        std::tie(row.offsetLow, row.offsetHigh) = offsetsAt(model, row.amplitude);
+        for (std::size_t c = 0; c < kColumns; ++c) {
+            const double along = static_cast<double>(c) / double(kColumns - 1);
+            const SineDrive at =
+                scaled(model, {row.offsetLow + along * (row.offsetHigh - row.offsetLow), row.amplitude});
+            const Extremes e = extremes(polynomials.at(at.offset, at.amplitude).power);
+            row.low_D.push_back(e.low);
+            row.high_D.push_back(e.high);
+        }
+    }
+    return map;
+}
+
+std::optional<Inverted> inverted(const ContinuousModel& model, double low, double high, double shift) {
+    if (!(low <= high)) return std::nullopt;
+    const double wantedLow = low - shift, wantedHigh = high - shift;
+    const Polynomials polynomials(model);
+    const auto checked = [&](const std::optional<SineDrive>& at) -> std::optional<Inverted> {
+        if (!at) return std::nullopt;
+        const SineDrive drive = unscaled(model, *at);
+        if (!within(model, drive)) return std::nullopt;
+        Inverted out{drive, lessConstant(model.power(drive.offset, drive.amplitude), -shift)};
+        const Extremes e = ilf::extremes(out.power);
+        if (std::max(std::abs(e.low - low), std::abs(e.high - high)) > 1e-9) return std::nullopt;
+        return out;
+    };
+
+    const auto made = model.map.empty() ? mapped(model) : std::vector<ContinuousModel::Row>{};
+    const auto& map = model.map.empty() ? made : model.map;
+    const double rowStep = map[1].amplitude - map[0].amplitude;
+    if (high - low < 1e-9) {
+        const auto start = onRow(map.front(), wantedLow);
+        if (!start) return std::nullopt;
+        return checked(solvedStill(polynomials, scaled(model, {start->offset, 0.0}).offset, wantedLow));
+    }
+    // Row by row of growing amplitude: the first crossing is the solution of least amplitude.
+    std::optional<OnRow> before;
+    for (const auto& row : map) {
+        const auto here = onRow(row, wantedLow);
+        const double offBefore = before ? before->high - wantedHigh : 0.0, off = here ? here->high - wantedHigh : 0.0;
+        std::optional<SineDrive> start;
+        if (before && here && offBefore <= 0.0 && off >= 0.0) {
+            const double part = off > offBefore ? -offBefore / (off - offBefore) : 0.5;
+            start = SineDrive{before->offset + part * (here->offset - before->offset),
+                              row.amplitude - (1.0 - part) * rowStep};
+        } else if (before && !here && offBefore <= 0.0) {
+            start = SineDrive{before->offset, row.amplitude - rowStep};  // the curve leaves the border in between
+        } else if (!before && here && off >= 0.0) {
+            start = SineDrive{here->offset, row.amplitude};
+        }
+        if (start) {
+            const double least = 0.05 * rowStep;
+            start->amplitude = std::max(start->amplitude, least);
+            if (auto found = checked(solved(polynomials, scaled(model, *start), wantedLow, wantedHigh))) return found;
+        }
+        before = here;
+    }
+    // Near a corner no row may cross at all: from the nearest node.
+    SineDrive nearest;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& row : map) {
+        for (std::size_t c = 0; c < row.low_D.size(); ++c) {
+            const double distance = std::hypot(row.low_D[c] - wantedLow, row.high_D[c] - wantedHigh);
+            if (distance >= least) continue;
+            least = distance;
+            const double along = static_cast<double>(c) / static_cast<double>(row.low_D.size() - 1);
+            nearest = {row.offsetLow + along * (row.offsetHigh - row.offsetLow),
+                       std::max(row.amplitude, 0.05 * rowStep)};
+        }
+    }
+    return checked(solved(polynomials, scaled(model, nearest), wantedLow, wantedHigh));
+}
+
+double largestHigh(const ContinuousModel& model, double low, double shift) {
+    const double wanted = low - shift;
+    const Polynomials polynomials(model);
+    const auto made = model.map.empty() ? mapped(model) : std::vector<ContinuousModel::Row>{};
+    const auto& map = model.map.empty() ? made : model.map;
+    double largest = onRow(map.front(), wanted) ? wanted : -std::numeric_limits<double>::infinity();
+    // Drives with this lowest power form a curve that leaves the records' range on the border; `high` grows along it.
+    for (const bool right : {false, true}) {
+        const auto lowOf = [&](const ContinuousModel::Row& row) {
+            return right ? row.low_D.back() : row.low_D.front();
+        };
+        const auto at = [&](double amplitude) {
+            const auto [from, to] = offsetsAt(model, amplitude);
+            const SineDrive drive = scaled(model, {right ? to : from, amplitude});
+            return extremes(polynomials.at(drive.offset, drive.amplitude).power);
+        };
+        for (std::size_t r = 0; r + 1 < map.size(); ++r) {
+            double from = map[r].amplitude, to = map[r + 1].amplitude;
+            double offFrom = lowOf(map[r]) - wanted, offTo = lowOf(map[r + 1]) - wanted;
+            if (offFrom * offTo > 0.0 || offFrom == offTo) continue;
+            Extremes e = at(from);
+            // Regula falsi, halving the end that stays (Illinois).
+            for (int step = 0; step < 60 && std::abs(e.low - wanted) > 1e-9; ++step) {
+                const double middle = (from * offTo - to * offFrom) / (offTo - offFrom);
+                e = at(middle);
+                const double off = e.low - wanted;
+                if (off * offTo < 0.0) {
+                    from = to;
+                    offFrom = offTo;
+                } else {
+                    offFrom *= 0.5;
+                }
+                to = middle;
+                offTo = off;
+            }
+            largest = std::max(largest, e.high);
+        }
+    }
+    return std::isfinite(largest) ? largest + shift : low;
+}
+
+}  // namespace ilf

@@ -1,0 +1,140 @@
+#include "core/lens/wave_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "core/lens/sine_record.h"
+
+namespace ilf {
+namespace {
+
+struct Moments {
+    double mean = 0.0, variance = 0.0;
+};
+/// Of the power over a slot, in closed form.
+Moments moments(const Harmonics& power, double centre, double length) {
+    const double mean = power.meanOver(centre - 0.5 * length, length);
+    return {mean, squared(lessConstant(power, mean)).meanOver(centre - 0.5 * length, length)};
+}
+
+double squareError(const Moments& slot, double shift, double target) {
+    const double off = slot.mean + shift - target;
+    return off * off + slot.variance;
+}
+
+double peak(const TableWave& wave) { return std::max(std::abs(wave.driveLow), std::abs(wave.driveHigh)); }
+
+long rounded_mD(double range_D) { return std::lround(range_D * 1e3); }
+
+/// What decides between waves that are otherwise equal: a total order, so that a database always gives the same wave.
+auto tieBreak(const TableWave& wave, std::size_t index) { return std::tuple(peak(wave), wave.id, index); }
+
+}  // namespace
+
+Result<WaveTable> waveTable(std::span<const LensRecord> records, double drift_D_per_C, double slotLength) {
+    if (records.empty()) {
+        return fail(Fault::notFound,
+                    "There are no recorded waves to choose from: record or import some for this rate first.");
+    }
+    WaveTable table;
+    table.rate = records.front().rate;
+    table.slotLength = slotLength;
+    table.waves.reserve(records.size());
+    double temperature = 0.0;
+    for (const LensRecord& record : records) {
+        auto sine = sineRecord(record, table.rate);
+        if (!sine) return tl::unexpected(sine.error());
+        table.waves.push_back({record.id, sine->offset - sine->amplitude, sine->offset + sine->amplitude,
+                               std::move(sine->power), record.temperature_C});
+        temperature += record.temperature_C / static_cast<double>(records.size());
+    }
+    table.temperature_C = temperature;
+    for (TableWave& wave : table.waves) {
+        wave.power = lessConstant(std::move(wave.power), drift_D_per_C * (wave.temperature_C - temperature));
+        const Extremes e = extremes(wave.power);
+        table.low_D.push_back(e.low);
+        table.high_D.push_back(e.high);
+        for (auto [slots, centre] : {std::pair(&table.atLow, e.atLow), std::pair(&table.atHigh, e.atHigh)}) {
+            const Moments slot = moments(wave.power, centre, slotLength);
+            slots->mean.push_back(slot.mean);
+            slots->variance.push_back(slot.variance);
+        }
+    }
+    return table;
+}
+
+double slotError(const WaveTable& table, std::size_t index, double low, double high, double shift, double slotLength) {
+    if (slotLength == table.slotLength) {
+        return squareError({table.atLow.mean[index], table.atLow.variance[index]}, shift, low) +
+               squareError({table.atHigh.mean[index], table.atHigh.variance[index]}, shift, high);
+    }
+    const Harmonics& power = table.waves[index].power;
+    const Extremes e = extremes(power);
+    return squareError(moments(power, e.atLow, slotLength), shift, low) +
+           squareError(moments(power, e.atHigh, slotLength), shift, high);
+}
+
+bool playable(const WaveTable& table, std::size_t index, double shift, const DriveLimits& limits) {
+    const TableWave& wave = table.waves[index];
+    const double middle = 0.5 * (wave.driveLow + wave.driveHigh), swing = 0.5 * (wave.driveHigh - wave.driveLow);
+    return table.low_D[index] + shift >= limits.lensMin.si() && table.high_D[index] + shift <= limits.lensMax.si() &&
+           peak(wave) <= limits.peak && std::sqrt(middle * middle + 0.5 * swing * swing) <= limits.rms;
+}
+
+std::optional<std::size_t> narrowestCovering(const WaveTable& table, double low, double high, double shift,
+                                             double slotLength, const DriveLimits* limits) {
+    const auto covers = [&](std::size_t i) {
+        return (table.low_D[i] + shift <= low) & (table.high_D[i] + shift >= high);
+    };
+    const auto allowed = [&](std::size_t i) { return limits == nullptr || playable(table, i, shift, *limits); };
+    // Ranges are taken without the shift: added to both ends it would change their last bits, and so what rounds alike.
+    double narrowest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < table.waves.size(); ++i) {
+        const double range = table.high_D[i] - table.low_D[i];
+        if (covers(i) && range < narrowest && allowed(i)) narrowest = range;
+    }
+    if (std::isinf(narrowest)) return std::nullopt;
+
+    // Rounding keeps order, so the least rounded range is the rounded least.
+    const long least = rounded_mD(narrowest);
+    std::optional<std::size_t> best;
+    std::optional<double> bestError;  // judged when a second wave ties
+    const auto error = [&](std::size_t i) { return slotError(table, i, low, high, shift, slotLength); };
+    for (std::size_t i = 0; i < table.waves.size(); ++i) {
+        const double range = table.high_D[i] - table.low_D[i];
+        if (!(range < narrowest + 1.5e-3) || !covers(i) || rounded_mD(range) != least || !allowed(i)) continue;
+        if (!best) {
+            best = i;
+            continue;
+        }
+        if (!bestError) bestError = error(*best);
+        const double its = error(i);
+        if (std::tuple(its, tieBreak(table.waves[i], i)) <
+            std::tuple(*bestError, tieBreak(table.waves[*best], *best))) {
+            best = i;
+            bestError = its;
+        }
+    }
+    return best;
+}
+
+std::optional<std::size_t> leastSlotError(const WaveTable& table, double low, double high, double shift,
+                                          double slotLength, const DriveLimits* limits) {
+    std::optional<std::size_t> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < table.waves.size(); ++i) {
+        if (!((std::abs(table.low_D[i] + shift - low) <= kNear_D) &
+              (std::abs(table.high_D[i] + shift - high) <= kNear_D)))
+            continue;
+        const double error = slotError(table, i, low, high, shift, slotLength);
+        if (error > least || (limits != nullptr && !playable(table, i, shift, *limits))) continue;
+        if (best && error == least && tieBreak(table.waves[*best], *best) < tieBreak(table.waves[i], i)) continue;
+        least = error;
+        best = i;
+    }
+    return best;
+}
+
+}  // namespace ilf
