@@ -2,7 +2,7 @@
 // learnt.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +22,7 @@ struct LensCalibration {
     std::vector<WaveTable> tables;        ///< recorded sine waves, one table a rate
     std::vector<ContinuousModel> models;  ///< one a rate
     std::vector<ShapedWave> shaped;
-    double temperature_C = 30.0;  ///< of the lens now; records are corrected to it
+    double temperature_C = 30.0;  ///< of the lens now, at rest; records are corrected to it
     double drift_D_per_C = 0.033;
 };
 
@@ -32,9 +32,10 @@ struct WaveWish {
     Hertz rate = 60.0_Hz;
     std::vector<Dioptre> levels;  ///< powers at which something is lit, ascending; shaped waves hold them
     /// When slots lie, in sweeps: slotAware judges waves by them, and every wave is delayed so that its lowest power
-    /// falls on `lowAt`.
+    /// (shaped: the middle of its hold of the lowest level) falls on `lowAt`.
     double slotLength = 1.0 / 16.0;
     double lowAt = 0.5 / 16.0;
+    bool operator==(const WaveWish&) const = default;
 };
 
 /// A wave, or the reason why there is none. Never a silent clamp.
@@ -43,6 +44,10 @@ struct WaveChoice {
     std::string why;    ///< one sentence when there is no wave
     Dioptre reachable;  ///< the largest `high` for which there is one, all else equal
 };
+/// Waves are looked for among the entries of the wish's rate that were recorded nearest to the lens's temperature;
+/// waves beyond `limits` are no candidates. shaped: the newest wave whose holds lie within 0.02 D of the levels asked
+/// for; `reachable` is the wished high then, since learning is what limits it. `low` = `high`: a still lens, whatever
+/// was recorded.
 WaveChoice chosenWave(const LensCalibration& lens, WaveMode mode, const WaveWish& wish);
 
 }  // namespace ilf

@@ -138,7 +138,6 @@ Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift
     model.rate = records.front().rate;
     model.unit = records.front().unit;
     model.provenance = records.front().provenance;
-    model.temperature_C = 0.0;
     std::vector<SineRecord> sines;
     std::vector<SineDrive> drives;
     for (const LensRecord& record : records) {
@@ -149,7 +148,6 @@ Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift
                                             " differs from the first in its drive's unit or in where it comes from: "
                                             "fit each kind by itself.");
         }
-        model.temperature_C += record.temperature_C / static_cast<double>(records.size());
         drives.push_back({sine->offset, sine->amplitude});
         drives.push_back({sine->offset, -sine->amplitude});
         sines.push_back(*std::move(sine));
@@ -166,6 +164,8 @@ Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift
     const double areaScale = model.offsetScale * model.amplitudeScale;
     if (areaScale > 0.0) model.border = hull(drives, areaScale);
 
+    const Warmth room = warmth(sines);
+    model.temperature_C = room.resting_C;
     Points points;
     model.driveLow = std::numeric_limits<double>::infinity();
     model.driveHigh = -model.driveLow;
@@ -173,8 +173,7 @@ Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift
         const SineRecord& sine = sines[r];
         points.offset.push_back((sine.offset - model.offsetMiddle) / model.offsetScale);
         points.amplitude.push_back(sine.amplitude / model.amplitudeScale);
-        points.power.push_back(
-            lessConstant(sine.power, drift_D_per_C * (records[r].temperature_C - model.temperature_C)));
+        points.power.push_back(lessConstant(sine.power, drift_D_per_C * room.warmerThanThat_C[r]));
         model.driveLow = std::min(model.driveLow, sine.offset - sine.amplitude);
         model.driveHigh = std::max(model.driveHigh, sine.offset + sine.amplitude);
     }
@@ -197,7 +196,7 @@ Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift
     std::size_t count = 0;
     for (std::size_t r = 0; r < records.size(); ++r) {
         const Harmonics predicted = model.power(sines[r].offset, sines[r].amplitude);
-        const double warmer = drift_D_per_C * (records[r].temperature_C - model.temperature_C);
+        const double warmer = drift_D_per_C * room.warmerThanThat_C[r];
         const auto& samples = records[r].power_D;
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const double x = static_cast<double>(i) / static_cast<double>(samples.size()) + sines[r].late;

@@ -30,7 +30,8 @@ struct ContinuousModel {
     /// outside it are not asked of the model.
     std::vector<SineDrive> border;
     double rmsFit_D = 0.0, largestFit_D = 0.0;  ///< against the records it was fitted to, noise included
-    double temperature_C = 30.0;                ///< the mean of the records'; powers are at this one
+    /// Of the lens at rest while it was recorded. What a drive itself warms the coil by is part of the model.
+    double temperature_C = 30.0;
     Provenance provenance = Provenance::simulated;
 
     /// Where inversions start: the extremes at the nodes of a coarse grid inside the border, row by row of amplitude.
@@ -53,8 +54,8 @@ struct ModelTerm {
 std::vector<ModelTerm> modelTerms(int degree, int k);
 
 /// Needs records of family sine of one rate, about 40; refuses too few for a polynomial of degree 3 with one sentence.
-/// The degree is the one with the least error in predicting each record from the others (PRESS). Temperatures that
-/// differ are levelled by `drift_D_per_C`.
+/// The degree is the one with the least error in predicting each record from the others (PRESS). Where the
+/// room grew warmer while recording, powers are levelled by `drift_D_per_C`.
 Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift_D_per_C = 0.033);
 /// The grid of a model's `map`, from everything else in it.
 std::vector<ContinuousModel::Row> mapped(const ContinuousModel& model);

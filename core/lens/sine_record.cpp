@@ -41,6 +41,7 @@ Result<SineRecord> sineRecord(const LensRecord& record, Hertz rate) {
 
     SineRecord sine;
     sine.offset = record.drive.mean();
+    sine.temperature_C = record.temperature_C;
     sine.power = harmonicsOf(record.power_D, std::min(kRecordHarmonics, (record.power_D.size() - 1) / 2));
     if (drive.size() < 2 || drive[1] == 0.0) return sine;
     sine.amplitude = std::abs(drive[1]);
@@ -51,6 +52,27 @@ Result<SineRecord> sineRecord(const LensRecord& record, Hertz rate) {
         sine.power = sine.power.delayed(late);
     }
     return sine;
+}
+
+Warmth warmth(std::span<const SineRecord> records) {
+    // A straight line through (mean square of the drive, temperature).
+    const double n = static_cast<double>(records.size());
+    const auto square = [](const SineRecord& r) { return r.offset * r.offset + 0.5 * r.amplitude * r.amplitude; };
+    double meanSquare = 0.0, mean_C = 0.0, spread = 0.0, together = 0.0;
+    for (const SineRecord& r : records) {
+        meanSquare += square(r) / n;
+        mean_C += r.temperature_C / n;
+    }
+    for (const SineRecord& r : records) {
+        spread += (square(r) - meanSquare) * (square(r) - meanSquare);
+        together += (square(r) - meanSquare) * (r.temperature_C - mean_C);
+    }
+    // A drive never cools the coil.
+    const double warming = spread > 0.0 ? std::max(0.0, together / spread) : 0.0;
+    Warmth out{mean_C - warming * meanSquare, {}};
+    for (const SineRecord& r : records)
+        out.warmerThanThat_C.push_back(r.temperature_C - warming * square(r) - out.resting_C);
+    return out;
 }
 
 }  // namespace ilf

@@ -42,17 +42,19 @@ Result<WaveTable> waveTable(std::span<const LensRecord> records, double drift_D_
     table.rate = records.front().rate;
     table.slotLength = slotLength;
     table.waves.reserve(records.size());
-    double temperature = 0.0;
+    std::vector<SineRecord> sines;
     for (const LensRecord& record : records) {
         auto sine = sineRecord(record, table.rate);
         if (!sine) return tl::unexpected(sine.error());
-        table.waves.push_back({record.id, sine->offset - sine->amplitude, sine->offset + sine->amplitude,
-                               std::move(sine->power), record.temperature_C});
-        temperature += record.temperature_C / static_cast<double>(records.size());
+        sines.push_back(*std::move(sine));
     }
-    table.temperature_C = temperature;
-    for (TableWave& wave : table.waves) {
-        wave.power = lessConstant(std::move(wave.power), drift_D_per_C * (wave.temperature_C - temperature));
+    const Warmth room = warmth(sines);
+    table.temperature_C = room.resting_C;
+    for (std::size_t i = 0; i < sines.size(); ++i) {
+        SineRecord& sine = sines[i];
+        const TableWave& wave = table.waves.emplace_back(TableWave{
+            records[i].id, sine.offset - sine.amplitude, sine.offset + sine.amplitude,
+            lessConstant(std::move(sine.power), drift_D_per_C * room.warmerThanThat_C[i]), sine.temperature_C});
         const Extremes e = extremes(wave.power);
         table.low_D.push_back(e.low);
         table.high_D.push_back(e.high);

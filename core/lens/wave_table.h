@@ -14,14 +14,15 @@ namespace ilf {
 struct TableWave {
     std::int64_t id = 0;
     double driveLow = 0.0, driveHigh = 0.0;  ///< u(x) = middle + half (high - low) sin(2 pi x)
-    Harmonics power;                         ///< D, corrected to the table's temperature
-    double temperature_C = 30.0;             ///< when it was recorded
+    Harmonics power;                         ///< D, corrected to the table's temperature at rest
+    double temperature_C = 30.0;             ///< of the coil when it was recorded
 };
 
 /// Extremes and slots lie apart from the waves, side by side: a query reads nothing else until a wave is chosen.
 struct WaveTable {
     Hertz rate = 60.0_Hz;
-    double temperature_C = 30.0;  ///< all powers are at this one: the mean of the records'
+    /// Of the lens at rest while it was recorded. What a wave's own drive warms the coil by is part of its record.
+    double temperature_C = 30.0;
     std::vector<TableWave> waves;
     std::vector<double> low_D, high_D;  ///< of each wave
     /// Mean (D) and variance (D^2) of the power over slots of `slotLength` sweeps centred on the extremes.
@@ -32,8 +33,8 @@ struct WaveTable {
 };
 
 /// Families other than sine, other rates than the first's and NaN samples are refused, and so is no record at all.
-/// Temperatures that differ are levelled by `drift_D_per_C`; slots of another length than `slotLength` are judged too,
-/// but slower.
+/// Where the room grew warmer while recording, powers are levelled by `drift_D_per_C`; slots of another length than
+/// `slotLength` are judged too, but slower.
 Result<WaveTable> waveTable(std::span<const LensRecord> records, double drift_D_per_C = 0.033,
                             double slotLength = 1.0 / 16.0);
 
