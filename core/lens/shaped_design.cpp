@@ -11,7 +11,7 @@ namespace ilf {
 namespace {
 
 constexpr int kSamples = 512;  ///< a sweep: 16 harmonics deviate from their samples by less than 1 %
-/// What full rms drive must gain: a wave that is 2 mD better is not worth a coil at its limit.
+/// What driving at the rms limit must gain: a coil as hot as it may be is not worth 2 mD.
 constexpr double kDriveWorth_D = 2e-3;
 
 std::string number(double value) {
@@ -118,8 +118,9 @@ Result<void> checkedHolds(std::span<const Hold> holds) {
         total += hold.length;
     }
     if (!(total < 1.0))
-        return fail(Fault::outOfRange, "Holds of " + number(100.0 * total) +
-                                           " % of the sweep together leave no time to move between them; shorten them.");
+        return fail(Fault::outOfRange,
+                    "Holds of " + number(100.0 * total) +
+                        " % of the sweep together leave no time to move between them; shorten them.");
     std::ranges::sort(spans);
     for (std::size_t i = 0; i < spans.size(); ++i) {
         const double next = i + 1 < spans.size() ? spans[i + 1].first : spans[0].first + 1.0;
@@ -163,11 +164,11 @@ Result<ShapedDesign> designed(const PowerModel& model, std::span<const Hold> hol
     const auto [low, high] = std::ranges::minmax_element(holds, {}, &Hold::power_D);
     const double span = high->power_D - low->power_D;
     if (design.largestError_D > std::max(0.25 * span, 0.25))
-        return fail(Fault::outOfRange,
-                    "The lens cannot hold " + number(low->power_D) + " to " + number(high->power_D) + " D at " +
-                        number(model.rate.si()) + " Hz within its drive limits (" + number(limits.peak) + " " +
-                        std::string(word(model.unit)) + " peak): it would be " + number(design.largestError_D) +
-                        " D off; a slower sweep, shorter holds or a smaller range would help.");
+        return fail(Fault::outOfRange, "The lens cannot hold " + number(low->power_D) + " to " + number(high->power_D) +
+                                           " D at " + number(model.rate.si()) + " Hz within its drive limits (" +
+                                           number(limits.peak) + " " + std::string(word(model.unit)) +
+                                           " peak): it would be " + number(design.largestError_D) +
+                                           " D off; a slower sweep, shorter holds or a smaller range would help.");
     return design;
 }
 

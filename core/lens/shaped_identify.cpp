@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/lens/shaped_model.h"
 #include "core/lens/shaped_record.h"
-#include "core/lens/shaped_wave.h"
 
 namespace ilf {
 namespace {
@@ -16,10 +16,9 @@ constexpr double kProbe = 0.05;
 /// No harmonic of the last record is weaker than this part of its strongest: each gain is seen.
 constexpr double kFloor = 0.05;
 
-/// Mean, then `amplitudes` with Schroeder's phases (low crest), all turned by `turn` of a period times k^2 more.
-Harmonics multisine(double mean, std::span<const double> amplitudes, double turn) {
-    Harmonics f;
-    f.c.emplace_back(mean);
+/// `amplitudes` with Schroeder's phases (low crest), harmonic k turned by `turn` of a period times k^2 more.
+Harmonics multisine(std::span<const double> amplitudes, double turn) {
+    Harmonics f{{0.0}};
     const double count = static_cast<double>(amplitudes.size());
     for (std::size_t i = 0; i < amplitudes.size(); ++i) {
         const double k = static_cast<double>(i + 1);
@@ -61,11 +60,24 @@ void fitGains(LensResponse& response, std::span<const Seen> seen) {
     }
 }
 
+/// Harmonics that the wave hardly has are raised to kFloor of its strongest, each with a phase of its own.
+Harmonics allSeen(Harmonics drive) {
+    double strongest = 0.0;
+    for (std::size_t k = 1; k < drive.c.size(); ++k)
+        strongest = std::max(strongest, std::abs(drive.c[k]));
+    for (std::size_t k = 1; k < drive.c.size(); ++k) {
+        if (std::abs(drive.c[k]) < kFloor * strongest)
+            drive.c[k] = std::polar(kFloor * strongest, static_cast<double>(k * k));
+    }
+    return drive;
+}
+
 }  // namespace
 
-Result<LensResponse> identified(const RecordLens& record, Hertz rate, double middle_D, double swing_D, int harmonics,
-                                const DriveLimits& limits) {
+Result<Identification> identifiedFor(const RecordLens& record, Hertz rate, std::span<const Hold> holds, int harmonics,
+                                     const DriveLimits& limits) {
     assert(harmonics >= 1);
+    if (const auto fine = checkedHolds(holds); !fine) return tl::unexpected(fine.error());
     if (!(limits.peak > 0.0) || !(limits.rms > 0.0))
         return fail(Fault::outOfRange, "The lens has no drive limits above 0; nothing can be played on it.");
     const auto count = static_cast<std::size_t>(harmonics);
@@ -84,9 +96,9 @@ Result<LensResponse> identified(const RecordLens& record, Hertz rate, double mid
     // Two weak records of different means find the lens's rest, its static gain and roughly the others.
     const double strength = kProbe * std::min(limits.peak, limits.rms);
     const std::vector<double> flat(count, strength);
-    const Harmonics first = within(multisine(0.0, flat, 0.0), limits, kProbe);
+    const Harmonics first = within(multisine(flat, 0.0), limits, kProbe);
     if (const auto done = play(first); !done) return tl::unexpected(done.error());
-    Harmonics second = within(multisine(0.0, flat, 0.25), limits, kProbe);
+    Harmonics second = within(multisine(flat, 0.25), limits, kProbe);
     second.c[0] = strength;
     if (const auto done = play(second); !done) return tl::unexpected(done.error());
     response.gain[0] = (seen[1].power.mean() - seen[0].power.mean()) / strength;
@@ -95,17 +107,10 @@ Result<LensResponse> identified(const RecordLens& record, Hertz rate, double mid
     if (!(std::abs(response.gain[0]) > 0.0) || !(std::abs(response.gain[1]) > 0.0))
         return fail(Fault::device, "The lens did not move when it was driven; check its cable and amplifier.");
 
-    // The third moves it as the wave to come will: its mean, and the spectrum of two held levels `swing` apart.
-    const std::array<double, 2> levels{middle_D - 0.5 * swing_D, middle_D + 0.5 * swing_D};
-    const auto plain = designed(response, holdsFor(levels, 0.3, 0.0), harmonics, limits);
+    // The third is the wave these gains ask for: a lens that is not linear is identified where it will be used.
+    const auto plain = designed(response, holds, harmonics, limits);
     if (!plain) return tl::unexpected(plain.error());
-    std::vector<double> amplitudes;
-    for (std::size_t k = 1; k <= count; ++k)
-        amplitudes.push_back(std::abs(plain->drive.c[k]));
-    const double floor = kFloor * *std::ranges::max_element(amplitudes);
-    for (double& amplitude : amplitudes)
-        amplitude = std::max(amplitude, floor);
-    const Harmonics third = within(multisine(plain->drive.mean(), amplitudes, 0.125), limits, 1.0);
+    const Harmonics third = within(allSeen(plain->drive), limits, 1.0);
     if (const auto done = play(third); !done) return tl::unexpected(done.error());
     fitGains(response, seen);
     const double shift = third.mean();
@@ -114,7 +119,15 @@ Result<LensResponse> identified(const RecordLens& record, Hertz rate, double mid
         response.gain[0] = (seen[2].power.mean() - seen[0].power.mean()) / shift;
     }
     response.bias_D = seen[2].power.mean() - response.gain[0].real() * shift;
-    return response;
+    return Identification{response, third, seen[2].power};
+}
+
+Result<LensResponse> identified(const RecordLens& record, Hertz rate, double middle_D, double swing_D, int harmonics,
+                                const DriveLimits& limits) {
+    const std::array<double, 2> levels{middle_D - 0.5 * swing_D, middle_D + 0.5 * swing_D};
+    auto found = identifiedFor(record, rate, holdsFor(levels, 0.3, 0.0), harmonics, limits);
+    if (!found) return tl::unexpected(found.error());
+    return found->response;
 }
 
 }  // namespace ilf

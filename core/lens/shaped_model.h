@@ -31,6 +31,15 @@ void moveTo(PowerModel& model, const Harmonics& drive, const Harmonics& power);
 /// from one drive to another. Changes near the noise of a record correct little.
 void correct(PowerModel& model, const Harmonics& driveChange, const Harmonics& powerChange, double noise_D);
 
+/// A response, and the last of the records it was found with: the wave it asks for, next to where learning begins.
+struct Identification {
+    LensResponse response;
+    Harmonics drive, power;
+};
+/// Two weak multisines, then one with the spectrum of the wave that is to hold `holds`.
+Result<Identification> identifiedFor(const RecordLens& record, Hertz rate, std::span<const Hold> holds, int harmonics,
+                                     const DriveLimits& limits);
+
 Result<ShapedDesign> designed(const PowerModel& model, std::span<const Hold> holds, const DriveLimits& limits);
 
 }  // namespace ilf

@@ -8,8 +8,8 @@
 namespace ilf {
 namespace {
 
-/// Of the way to what the last record asks for. A lens with hysteresis answers small corrections up to half as much
-/// again as it answered the waves it was identified with.
+/// Of the way to what the last record asks for (scheduling 3.4). A lens that is not linear answers a correction with up
+/// to half as much again as predicted; a full step would then swing about the aim.
 constexpr double kLearningGain = 0.7;
 
 Harmonics between(const Harmonics& from, const Harmonics& to, double part) {
@@ -30,12 +30,10 @@ Harmonics difference(const Harmonics& a, const Harmonics& b) {
 
 Result<ShapedWave> learnt(const RecordLens& record, Hertz rate, std::span<const Hold> holds, int harmonics,
                           const DriveLimits& limits, int iterations) {
-    if (const auto fine = checkedHolds(holds); !fine) return tl::unexpected(fine.error());
-    const auto [low, high] = std::ranges::minmax_element(holds, {}, &Hold::power_D);
-    const auto response = identified(record, rate, 0.5 * (low->power_D + high->power_D),
-                                     high->power_D - low->power_D, harmonics, limits);
-    if (!response) return tl::unexpected(response.error());
-    PowerModel model = modelOf(*response, static_cast<std::size_t>(harmonics));
+    const auto found = identifiedFor(record, rate, holds, harmonics, limits);
+    if (!found) return tl::unexpected(found.error());
+    PowerModel model = modelOf(found->response, static_cast<std::size_t>(harmonics));
+    moveTo(model, found->drive, found->power);
     auto design = designed(model, holds, limits);
     if (!design) return tl::unexpected(design.error());
 
