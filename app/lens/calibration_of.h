@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
+#include "app/lens/record_lens.h"
 #include "core/lens/calibration.h"
 #include "devices/simulated/lens_emulator.h"
 #include "projects/wave_database.h"
@@ -24,5 +26,13 @@ Result<Calibration> simulatedCalibration(devices::LensPreset preset, Hertz rate)
 /// emulator.
 Result<Calibration> withShapedWave(const Calibration& calibration, devices::LensPreset preset,
                                    std::span<const Dioptre> levels, double duty, int harmonics, Hertz rate);
+
+/// The emulator a file's waves were recorded on; none for a real lens.
+std::optional<LensBench> benchOf(const projects::RecordedLens& lens);
+projects::RecordedLens lensOf(const LensBench& bench);
+
+/// A wave that holds the lens of `bench` at `levels` for `duty` of the sweep each, learnt on it.
+Result<ShapedWave> learntOn(const LensBench& bench, std::span<const Dioptre> levels, double duty, int harmonics,
+                            Hertz rate);
 
 }  // namespace ilf::app
