@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lens/drive_range.h"
 #include "core/lens/sine_record.h"
 
 namespace ilf {
@@ -59,12 +60,6 @@ std::string beyondLimits(const LensCalibration& lens, const Waveform& wave) {
     return {};
 }
 
-Harmonics sine(const SineDrive& drive) {
-    Harmonics u{{drive.offset}};
-    if (drive.amplitude != 0.0) u.c.emplace_back(0.0, -drive.amplitude);
-    return u;
-}
-
 /// Power and drive as the lens is asked to play them: delayed together so that what is at `from` falls on `lowAt`.
 Waveform asWished(const WaveWish& wish, WaveMode mode, const Harmonics& power, const Harmonics& drive, double from) {
     Waveform wave;
@@ -88,7 +83,7 @@ std::optional<double> reachableFromTable(const WaveTable& table, const LensCalib
         if (serves && itsHigh > reach.value_or(low) && playable(table, i, shift, lens.limits)) reach = itsHigh;
     }
     // Less a billionth, so that what is called reachable is not lost to rounding.
-    if (reach && mode == WaveMode::slotAware) *reach += kNear_D - 1e-9;
+    if (reach && mode == WaveMode::slotAware) reach = std::min(*reach + kNear_D - 1e-9, lens.limits.lensMax.si());
     return reach;
 }
 
@@ -111,7 +106,8 @@ WaveChoice fromTable(const LensCalibration& lens, WaveMode mode, const WaveWish&
     const TableWave& chosen = table->waves[*index];
     const Harmonics power = lessConstant(chosen.power, -shift);
     const SineDrive drive{0.5 * (chosen.driveLow + chosen.driveHigh), 0.5 * (chosen.driveHigh - chosen.driveLow)};
-    WaveChoice choice{asWished(wish, mode, power, sine(drive), extremes(power).atLow), {}, Dioptre::fromSi(*reach)};
+    WaveChoice choice{
+        asWished(wish, mode, power, sineDrive(drive), extremes(power).atLow), {}, Dioptre::fromSi(*reach)};
     choice.wave->unit = lens.unit;
     choice.wave->wave = chosen.id;
     choice.wave->provenance = lens.provenance;
@@ -124,10 +120,10 @@ WaveChoice fromModel(const LensCalibration& lens, const WaveWish& wish) {
     const double low = wish.low.si(), high = wish.high.si();
     const double shift = lens.drift_D_per_C * (lens.temperature_C - model->temperature_C);
     const auto wave = [&](double upTo) -> std::optional<Waveform> {
-        const auto found = inverted(*model, low, upTo, shift);
+        const auto found = inverted(*model, low, upTo, shift, wish.slotLength);
         if (!found) return std::nullopt;
         Waveform made =
-            asWished(wish, WaveMode::continuous, found->power, sine(found->drive), extremes(found->power).atLow);
+            asWished(wish, WaveMode::continuous, found->power, sineDrive(found->drive), extremes(found->power).atLow);
         made.unit = model->unit;
         made.provenance = model->provenance;
         return made;
@@ -137,7 +133,7 @@ WaveChoice fromModel(const LensCalibration& lens, const WaveWish& wish) {
         return made && beyondLimits(lens, *made).empty();
     };
 
-    const double recorded = largestHigh(*model, low, shift);
+    const double recorded = largestHigh(*model, low, shift, wish.slotLength);
     double reach = std::min(recorded, lens.limits.lensMax.si());
     // Drives grow with the swing; where the last one is too large the limit lies in between.
     if (reach > low && !allowed(reach - 1e-9)) {

@@ -145,12 +145,36 @@ Extremes extremes(const Wave& wave) {
     return e;
 }
 
-SineDrive scaled(const ContinuousModel& model, const SineDrive& drive) {
-    return {(drive.offset - model.offsetMiddle) / model.offsetScale, drive.amplitude / model.amplitudeScale};
-}
-SineDrive unscaled(const ContinuousModel& model, const SineDrive& drive) {
-    return {model.offsetMiddle + drive.offset * model.offsetScale, drive.amplitude * model.amplitudeScale};
-}
+/// What shall be `low` and `high`: the extremes, or the means over slots centred on them.
+class Measure {
+public:
+    explicit Measure(double slotLength) {
+        kept_.fill(1.0);
+        for (std::size_t k = 1; k < kHarmonics && slotLength > 0.0; ++k) {
+            const double half = std::numbers::pi * static_cast<double>(k) * slotLength;
+            kept_[k] = std::sin(half) / half;
+        }
+    }
+    /// The mean over a slot about each x, as a wave.
+    Wave operator()(const Wave& wave) const {
+        Wave out;
+        for (std::size_t k = 0; k < kHarmonics; ++k) {
+            out.re[k] = wave.re[k] * kept_[k];
+            out.im[k] = wave.im[k] * kept_[k];
+        }
+        return out;
+    }
+    /// `e` of `wave`, its extremes replaced by what is measured there.
+    Extremes operator()(const Wave& wave, Extremes e) const {
+        const Wave mean = (*this)(wave);
+        e.low = mean.at(e.atLow);
+        e.high = mean.at(e.atHigh);
+        return e;
+    }
+
+private:
+    std::array<double, kHarmonics> kept_;
+};
 
 /// Inside the border, or outside by less than rounding.
 bool within(const ContinuousModel& model, const SineDrive& drive) {
@@ -179,15 +203,18 @@ std::pair<double, double> offsetsAt(const ContinuousModel& model, double amplitu
     return {left, right};
 }
 
-/// Newton in two dimensions: by the envelope theorem the extremes change as the power does where they lie.
-std::optional<SineDrive> solved(const Polynomials& polynomials, SineDrive drive, double low, double high) {
-    for (int step = 0; step < 20; ++step) {
+/// Newton in two dimensions: by the envelope theorem extremes change as the power does where they lie. Slots centred on
+/// them nearly do, which costs a step or two more.
+std::optional<SineDrive> solved(const Polynomials& polynomials, const Measure& measure, SineDrive drive, double low,
+                                double high) {
+    for (int step = 0; step < 30; ++step) {
         const Bent wave = polynomials.at(drive.offset, drive.amplitude);
-        const Extremes e = extremes(wave.power);
+        const Extremes e = measure(wave.power, extremes(wave.power));
         const double offLow = e.low - low, offHigh = e.high - high;
         if (std::max(std::abs(offLow), std::abs(offHigh)) < kNearEnough_D) return drive;
-        const double lowByO = wave.byOffset.at(e.atLow), lowByA = wave.byAmplitude.at(e.atLow);
-        const double highByO = wave.byOffset.at(e.atHigh), highByA = wave.byAmplitude.at(e.atHigh);
+        const Wave byOffset = measure(wave.byOffset), byAmplitude = measure(wave.byAmplitude);
+        const double lowByO = byOffset.at(e.atLow), lowByA = byAmplitude.at(e.atLow);
+        const double highByO = byOffset.at(e.atHigh), highByA = byAmplitude.at(e.atHigh);
         const double det = lowByO * highByA - lowByA * highByO;
         if (det == 0.0) return std::nullopt;
         double o = (offLow * highByA - offHigh * lowByA) / det, a = (offHigh * lowByO - offLow * highByO) / det;
@@ -238,15 +265,18 @@ std::vector<ContinuousModel::Row> mapped(const ContinuousModel& model) {
     double tallest = 0.0;
     for (const SineDrive& corner : model.border)
         tallest = std::max(tallest, corner.amplitude);
+    const double top = model.scaled({0.0, tallest}).amplitude;
     std::vector<ContinuousModel::Row> map(kRows);
     for (std::size_t r = 0; r < kRows; ++r) {
         ContinuousModel::Row& row = map[r];
-        row.amplitude = tallest * static_cast<double>(r) / double(kRows - 1);
+        row.amplitude = r + 1 == kRows
+                            ? tallest
+                            : model.unscaled({0.0, top * static_cast<double>(r) / double(kRows - 1)}).amplitude;
         std::tie(row.offsetLow, row.offsetHigh) = offsetsAt(model, row.amplitude);
         for (std::size_t c = 0; c < kColumns; ++c) {
             const double along = static_cast<double>(c) / double(kColumns - 1);
             const SineDrive at =
-                scaled(model, {row.offsetLow + along * (row.offsetHigh - row.offsetLow), row.amplitude});
+                model.scaled({row.offsetLow + along * (row.offsetHigh - row.offsetLow), row.amplitude});
             const Extremes e = extremes(polynomials.at(at.offset, at.amplitude).power);
             row.low_D.push_back(e.low);
             row.high_D.push_back(e.high);
@@ -255,30 +285,31 @@ std::vector<ContinuousModel::Row> mapped(const ContinuousModel& model) {
     return map;
 }
 
-std::optional<Inverted> inverted(const ContinuousModel& model, double low, double high, double shift) {
+std::optional<Inverted> inverted(const ContinuousModel& model, double low, double high, double shift,
+                                 double slotLength) {
     if (!(low <= high)) return std::nullopt;
     const double wantedLow = low - shift, wantedHigh = high - shift;
     const Polynomials polynomials(model);
+    const Measure measure(slotLength);
     const auto checked = [&](const std::optional<SineDrive>& at) -> std::optional<Inverted> {
         if (!at) return std::nullopt;
-        const SineDrive drive = unscaled(model, *at);
+        const SineDrive drive = model.unscaled(*at);
         if (!within(model, drive)) return std::nullopt;
-        Inverted out{drive, lessConstant(model.power(drive.offset, drive.amplitude), -shift)};
-        const Extremes e = ilf::extremes(out.power);
-        if (std::max(std::abs(e.low - low), std::abs(e.high - high)) > 1e-9) return std::nullopt;
-        return out;
+        return Inverted{drive, lessConstant(model.power(drive.offset, drive.amplitude), -shift)};
     };
 
     const auto made = model.map.empty() ? mapped(model) : std::vector<ContinuousModel::Row>{};
     const auto& map = model.map.empty() ? made : model.map;
-    const double rowStep = map[1].amplitude - map[0].amplitude;
+    // Where a start has an amplitude, if only a small one, Newton has extremes to follow.
+    const double small = 0.05 * map[1].amplitude;
     if (high - low < 1e-9) {
         const auto start = onRow(map.front(), wantedLow);
         if (!start) return std::nullopt;
-        return checked(solvedStill(polynomials, scaled(model, {start->offset, 0.0}).offset, wantedLow));
+        return checked(solvedStill(polynomials, model.scaled({start->offset, 0.0}).offset, wantedLow));
     }
     // Row by row of growing amplitude: the first crossing is the solution of least amplitude.
     std::optional<OnRow> before;
+    double amplitudeBefore = 0.0;
     for (const auto& row : map) {
         const auto here = onRow(row, wantedLow);
         const double offBefore = before ? before->high - wantedHigh : 0.0, off = here ? here->high - wantedHigh : 0.0;
@@ -286,18 +317,19 @@ std::optional<Inverted> inverted(const ContinuousModel& model, double low, doubl
         if (before && here && offBefore <= 0.0 && off >= 0.0) {
             const double part = off > offBefore ? -offBefore / (off - offBefore) : 0.5;
             start = SineDrive{before->offset + part * (here->offset - before->offset),
-                              row.amplitude - (1.0 - part) * rowStep};
+                              amplitudeBefore + part * (row.amplitude - amplitudeBefore)};
         } else if (before && !here && offBefore <= 0.0) {
-            start = SineDrive{before->offset, row.amplitude - rowStep};  // the curve leaves the border in between
+            start = SineDrive{before->offset, amplitudeBefore};  // the curve leaves the border in between
         } else if (!before && here && off >= 0.0) {
             start = SineDrive{here->offset, row.amplitude};
         }
         if (start) {
-            const double least = 0.05 * rowStep;
-            start->amplitude = std::max(start->amplitude, least);
-            if (auto found = checked(solved(polynomials, scaled(model, *start), wantedLow, wantedHigh))) return found;
+            start->amplitude = std::max(start->amplitude, small);
+            if (auto found = checked(solved(polynomials, measure, model.scaled(*start), wantedLow, wantedHigh)))
+                return found;
         }
         before = here;
+        amplitudeBefore = row.amplitude;
     }
     // Near a corner no row may cross at all: from the nearest node.
     SineDrive nearest;
@@ -308,34 +340,38 @@ std::optional<Inverted> inverted(const ContinuousModel& model, double low, doubl
             if (distance >= least) continue;
             least = distance;
             const double along = static_cast<double>(c) / static_cast<double>(row.low_D.size() - 1);
-            nearest = {row.offsetLow + along * (row.offsetHigh - row.offsetLow),
-                       std::max(row.amplitude, 0.05 * rowStep)};
+            nearest = {row.offsetLow + along * (row.offsetHigh - row.offsetLow), std::max(row.amplitude, small)};
         }
     }
-    return checked(solved(polynomials, scaled(model, nearest), wantedLow, wantedHigh));
+    return checked(solved(polynomials, measure, model.scaled(nearest), wantedLow, wantedHigh));
 }
 
-double largestHigh(const ContinuousModel& model, double low, double shift) {
+double largestHigh(const ContinuousModel& model, double low, double shift, double slotLength) {
     const double wanted = low - shift;
     const Polynomials polynomials(model);
+    const Measure measure(slotLength);
     const auto made = model.map.empty() ? mapped(model) : std::vector<ContinuousModel::Row>{};
     const auto& map = model.map.empty() ? made : model.map;
     double largest = onRow(map.front(), wanted) ? wanted : -std::numeric_limits<double>::infinity();
     // Drives with this lowest power form a curve that leaves the records' range on the border; `high` grows along it.
     for (const bool right : {false, true}) {
-        const auto lowOf = [&](const ContinuousModel::Row& row) {
-            return right ? row.low_D.back() : row.low_D.front();
-        };
         const auto at = [&](double amplitude) {
             const auto [from, to] = offsetsAt(model, amplitude);
-            const SineDrive drive = scaled(model, {right ? to : from, amplitude});
-            return extremes(polynomials.at(drive.offset, drive.amplitude).power);
+            const SineDrive drive = model.scaled({right ? to : from, amplitude});
+            const Wave wave = polynomials.at(drive.offset, drive.amplitude).power;
+            return measure(wave, extremes(wave));
         };
         for (std::size_t r = 0; r + 1 < map.size(); ++r) {
+            const auto mapLow = [&](const ContinuousModel::Row& row) {
+                return (right ? row.low_D.back() : row.low_D.front()) - wanted;
+            };
+            // The map has extremes; means over slots lie above the lowest by less than this.
+            const double slack = slotLength > 0.0 ? 0.5 : 1e-9, one = mapLow(map[r]), other = mapLow(map[r + 1]);
+            if (std::min(one, other) > slack || std::max(one, other) < -slack) continue;
             double from = map[r].amplitude, to = map[r + 1].amplitude;
-            double offFrom = lowOf(map[r]) - wanted, offTo = lowOf(map[r + 1]) - wanted;
-            if (offFrom * offTo > 0.0 || offFrom == offTo) continue;
             Extremes e = at(from);
+            double offFrom = e.low - wanted, offTo = at(to).low - wanted;
+            if (offFrom * offTo > 0.0 || offFrom == offTo) continue;
             // Regula falsi, halving the end that stays (Illinois).
             for (int step = 0; step < 60 && std::abs(e.low - wanted) > 1e-9; ++step) {
                 const double middle = (from * offTo - to * offFrom) / (offTo - offFrom);

@@ -14,6 +14,15 @@ namespace ilf {
 namespace {
 
 constexpr int kLeastDegree = 3;
+/// Tried for ContinuousModel::amplitudeBend.
+constexpr double kBends[] = {0.0, 0.5, 0.2, 0.1, 0.05};
+/// Amplitudes to record are spaced as for this bend.
+constexpr double kRecordedBend = 0.25;
+
+double bent(double a, double bend) { return bend > 0.0 ? std::asinh(a / bend) / std::asinh(1.0 / bend) : a; }
+double unbent(double bentA, double bend) {
+    return bend > 0.0 ? bend * std::sinh(bentA * std::asinh(1.0 / bend)) : bentA;
+}
 
 double power(double base, int exponent) {
     double value = 1.0;
@@ -36,7 +45,7 @@ struct Fit {
 };
 
 /// None when the records do not determine the terms.
-std::optional<Fit> fit(const Points& points, int degree) {
+std::optional<Fit> fit(const Points& points, int degree, double bend) {
     Fit result;
     result.terms.resize(kRecordHarmonics + 1);
     const int n = static_cast<int>(points.size());
@@ -50,7 +59,7 @@ std::optional<Fit> fit(const Points& points, int degree) {
             const auto row = static_cast<std::size_t>(r);
             for (std::size_t t = 0; t < terms.size(); ++t) {
                 a(r, static_cast<int>(t)) =
-                    power(points.offset[row], terms[t].i) * power(points.amplitude[row], terms[t].j);
+                    power(points.offset[row], terms[t].i) * power(bent(points.amplitude[row], bend), terms[t].j);
             }
             for (std::size_t h = 0; h < harmonics.size(); ++h) {
                 const auto& c = points.power[row].c;
@@ -116,14 +125,22 @@ std::vector<ModelTerm> modelTerms(int degree, int k) {
     return terms;
 }
 
+SineDrive ContinuousModel::scaled(const SineDrive& drive) const {
+    return {(drive.offset - offsetMiddle) / offsetScale, bent(drive.amplitude / amplitudeScale, amplitudeBend)};
+}
+SineDrive ContinuousModel::unscaled(const SineDrive& scaled) const {
+    return {offsetMiddle + scaled.offset * offsetScale, amplitudeScale * unbent(scaled.amplitude, amplitudeBend)};
+}
+
 Harmonics ContinuousModel::power(double offset, double amplitude) const {
-    const double o = (offset - offsetMiddle) / offsetScale, a = amplitude / amplitudeScale;
+    const SineDrive at = scaled({offset, amplitude});
     Harmonics out;
     out.c.resize(terms.size());
     for (std::size_t k = 0; k < terms.size(); ++k) {
         const auto exponents = modelTerms(degree, static_cast<int>(k));
         for (std::size_t t = 0; t < exponents.size(); ++t)
-            out.c[k] += terms[k][t] * (ilf::power(o, exponents[t].i) * ilf::power(a, exponents[t].j));
+            out.c[k] +=
+                terms[k][t] * (ilf::power(at.offset, exponents[t].i) * ilf::power(at.amplitude, exponents[t].j));
     }
     return out;
 }
@@ -180,10 +197,13 @@ Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift
     std::optional<Fit> best;
     for (int degree = kLeastDegree; degree <= kLargestModelDegree && areaScale > 0.0; ++degree) {
         if (2 * records.size() < 3 * modelTerms(degree, 0).size()) break;
-        auto tried = fit(points, degree);
-        if (!tried || (best && tried->press >= best->press)) continue;
-        best = std::move(tried);
-        model.degree = degree;
+        for (const double bend : kBends) {
+            auto tried = fit(points, degree, bend);
+            if (!tried || (best && tried->press >= best->press)) continue;
+            best = std::move(tried);
+            model.degree = degree;
+            model.amplitudeBend = bend;
+        }
     }
     if (!best || model.border.size() < 3) {
         return fail(Fault::badFile, "The " + std::to_string(records.size()) +
@@ -222,8 +242,9 @@ std::vector<SineDrive> drivesToRecord(double driveLow, double driveHigh, std::si
     std::size_t over = count - rows * (rows + 1) / 2;
     std::vector<SineDrive> drives;
     for (std::size_t row = 0; row < rows; ++row) {
-        // Chebyshev's spacing, in amplitude for the diamond that the triangle and its mirror image make.
-        const double tall = std::sin(0.5 * std::numbers::pi * static_cast<double>(row) / static_cast<double>(rows - 1));
+        // Chebyshev's spacing, in amplitude that of the diamond which the triangle and its mirror image make.
+        const double down = static_cast<double>(rows - 1 - row) / static_cast<double>(2 * rows - 1);
+        const double tall = unbent(std::cos(std::numbers::pi * down), kRecordedBend);
         const double wide = half * (1.0 - tall);
         std::size_t points = rows - row;
         if (points > 1) {

@@ -22,8 +22,9 @@ struct ContinuousModel {
     Hertz rate = 60.0_Hz;
     DriveUnit unit = DriveUnit::volt;
     int degree = 4;
-    double offsetScale = 1.0, amplitudeScale = 1.0;  ///< polynomials are of (o - middle) / scale and a / scale
-    double offsetMiddle = 0.0;
+    /// Polynomials are of (o - middle) / scale and of asinh(a / (scale bend)) / asinh(1 / bend), or a / scale where
+    /// bend is 0: a lens with a loop changes more between small amplitudes than between large ones.
+    double offsetMiddle = 0.0, offsetScale = 1.0, amplitudeScale = 1.0, amplitudeBend = 0.0;
     std::vector<std::vector<std::complex<double>>> terms;  ///< [harmonic][term], terms as `modelTerms` lists them
     double driveLow = 0.0, driveHigh = 0.0;                ///< the least and the largest drive of the records
     /// The records' drives and their mirror images (o, -a) lie inside this convex polygon, counterclockwise. Drives
@@ -42,6 +43,9 @@ struct ContinuousModel {
     std::vector<Row> map;  ///< what `mapped` gives
 
     Harmonics power(double offset, double amplitude) const;
+    /// What the polynomials are of, and back.
+    SineDrive scaled(const SineDrive& drive) const;
+    SineDrive unscaled(const SineDrive& scaled) const;
 };
 
 inline constexpr int kLargestModelDegree = 8;
@@ -54,27 +58,30 @@ struct ModelTerm {
 std::vector<ModelTerm> modelTerms(int degree, int k);
 
 /// Needs records of family sine of one rate, about 40; refuses too few for a polynomial of degree 3 with one sentence.
-/// The degree is the one with the least error in predicting each record from the others (PRESS). Where the
+/// Degree and bend are those with the least error in predicting each record from the others (PRESS). Where the
 /// room grew warmer while recording, powers are levelled by `drift_D_per_C`.
 Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift_D_per_C = 0.033);
 /// The grid of a model's `map`, from everything else in it.
 std::vector<ContinuousModel::Row> mapped(const ContinuousModel& model);
 
 /// The drives to record for a fit: `count` (at least 9) pairs with `driveLow` <= offset +- amplitude <= `driveHigh`,
-/// the borders included, nearer to each other there, as polynomials need it. `largestAmplitude` stretches or flattens
-/// that triangle where a lens answers a sine more or less than a steady drive; 0: half of the range. Deterministic.
+/// the borders included, nearer to each other there, as polynomials need it, and none without amplitude: where a lens
+/// with a loop stands still depends on where it came from. `largestAmplitude` stretches or flattens that triangle where
+/// a lens answers a sine more or less than a steady drive; 0: half of the range. Deterministic.
 std::vector<SineDrive> drivesToRecord(double driveLow, double driveHigh, std::size_t count,
                                       double largestAmplitude = 0.0);
 
 /// The drive of least amplitude whose predicted extremes are `low` and `high` to 1e-9 D; none when it lies outside the
-/// records' range or `low` > `high`.
+/// records' range or `low` > `high`. With a `slotLength` above 0 (in sweeps) it is the means over slots centred on the
+/// extremes that are `low` and `high`: the sweep goes a little farther, and slots lit there err by a third less.
 struct Inverted {
     SineDrive drive;
     Harmonics power;  ///< at the model's temperature plus `shift`
 };
-std::optional<Inverted> inverted(const ContinuousModel& model, double low, double high, double shift);
+std::optional<Inverted> inverted(const ContinuousModel& model, double low, double high, double shift,
+                                 double slotLength = 0.0);
 
 /// The largest `high` that `inverted` reaches with this `low`, to 1 mD; `low` itself where not even that is reached.
-double largestHigh(const ContinuousModel& model, double low, double shift);
+double largestHigh(const ContinuousModel& model, double low, double shift, double slotLength = 0.0);
 
 }  // namespace ilf
