@@ -15,9 +15,12 @@ int run(int argc, char** argv) {
         "light, lens at rest, whenever something fails. The studio starts it by itself.",
         "illuminatedfocus-core"};
     std::string directory = ilf::devices::runtimeDirectory().string();
-    std::string afterFault;
+    std::string afterFault, lensWord(ilf::devices::word(ilf::devices::kUsualLens));
     bool leaveDevices = false, stop = false, status = false, player = false, devices = false;
     options.add_option("--runtime-dir", directory, "Where sockets and locks are")->capture_default_str();
+    options.add_option("--simulated-lens", lensWord, "The lens that is simulated")
+        ->check(CLI::IsMember({"slow", "datasheet", "lively", "clean", "dirty", "ideal"}))
+        ->capture_default_str();
     options.add_flag("--leave-devices", leaveDevices, "Leave the simulated devices on when stopping");
     auto* stopFlag = options.add_flag("--stop", stop, "Stop the output core that runs, in safe light");
     auto* statusFlag = options.add_flag("--status", status, "Print what core and devices say, as one line of JSON");
@@ -40,8 +43,9 @@ int run(int argc, char** argv) {
         return 3;
     }
     if (player) return ilf::app::runPlayer(directory, afterFault);
-    if (devices) return ilf::app::runDevices(directory);
-    return ilf::app::runSupervisor(directory, leaveDevices);
+    const auto lens = *ilf::devices::simulatedLensFromWord(lensWord);
+    if (devices) return ilf::app::runDevices(directory, lens);
+    return ilf::app::runSupervisor(directory, leaveDevices, lens);
 }
 
 }  // namespace

@@ -49,8 +49,8 @@ bool within(milliseconds time, Condition condition) {
 
 class Supervisor {
 public:
-    Supervisor(const std::filesystem::path& directory, const Signals& signals)
-        : directory_(directory), signals_(signals), executable_(ownExecutable()), devices_(directory) {}
+    Supervisor(const std::filesystem::path& directory, const Signals& signals, devices::SimulatedLens lens)
+        : directory_(directory), signals_(signals), lens_(lens), executable_(ownExecutable()), devices_(directory) {}
 
     void start() {
         startDevices();
@@ -105,8 +105,10 @@ private:
     void startDevices() {
         if (devices::FileLock::holder(devices::devicesLock(directory_))) return;
         const auto log = devices::stateDirectory() / "simulated-devices.out";
-        const auto started =
-            devices::startDetached(executable_, {"--devices", "--runtime-dir", directory_.string()}, log);
+        const auto started = devices::startDetached(
+            executable_,
+            {"--devices", "--runtime-dir", directory_.string(), "--simulated-lens", std::string(devices::word(lens_))},
+            log);
         if (!started) spdlog::error("{}", started.error().what);
         if (!within(milliseconds(3000), [&] { return devices_.readState().has_value(); }))
             spdlog::error("the simulated devices do not answer; see {}", log.string());
@@ -164,6 +166,7 @@ private:
 
     std::filesystem::path directory_;
     const Signals& signals_;
+    devices::SimulatedLens lens_;
     std::filesystem::path executable_;
     devices::DeviceClient devices_;
     std::optional<pid_t> player_;
@@ -175,7 +178,7 @@ private:
 
 }  // namespace
 
-int runSupervisor(const std::filesystem::path& runtimeDirectory, bool leaveDevices) {
+int runSupervisor(const std::filesystem::path& runtimeDirectory, bool leaveDevices, devices::SimulatedLens lens) {
     const Signals signals{SIGTERM, SIGINT, SIGCHLD};
     comeFirst();
     startLog("output-core");
@@ -187,7 +190,7 @@ int runSupervisor(const std::filesystem::path& runtimeDirectory, bool leaveDevic
         return 3;
     }
     spdlog::info("output core started in {}", runtimeDirectory.string());
-    Supervisor supervisor(runtimeDirectory, signals);
+    Supervisor supervisor(runtimeDirectory, signals, lens);
     supervisor.start();
     supervisor.watch();
     supervisor.stop(leaveDevices);

@@ -40,7 +40,7 @@ private:
 
 bool finite(const Waveform& wave) {
     return isFinite(wave.rest) && isFinite(wave.low) && isFinite(wave.high) && isFinite(wave.rate) &&
-           isFinite(wave.power) && isFinite(wave.drive);
+           isFinite(wave.power) && isFinite(wave.drive) && std::isfinite(wave.temperature_C);
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ std::uint64_t contentHash(const Program& program) {
     Hash hash;
     const Waveform& wave = program.waveform;
     for (const double v : {wave.rest.si(), wave.low.si(), wave.high.si(), wave.rate.si(), program.slotRate.si(),
-                           program.projectorDelay.si()}) {
+                           program.projectorDelay.si(), wave.temperature_C}) {
         hash.add(v);
     }
     hash.add(wave.power);

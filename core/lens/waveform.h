@@ -40,6 +40,7 @@ struct Waveform {
     DriveUnit unit = DriveUnit::volt;
     std::int64_t wave = 0;  ///< the record it was taken from (paper, slotAware, shaped); 0: none
     Provenance provenance = Provenance::simulated;
+    double temperature_C = 30.0;  ///< of the lens, for which `power` is predicted
     bool operator==(const Waveform&) const = default;
 
     bool still() const { return low == high; }

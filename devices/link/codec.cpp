@@ -27,7 +27,7 @@ Offset<wire::Waveform> encode(FlatBufferBuilder& fb, const Waveform& w) {
     const auto drive = encode(fb, w.drive);
     return wire::CreateWaveform(fb, w.rest.si(), w.low.si(), w.high.si(), w.rate.si(), power, drive,
                                 static_cast<wire::DriveUnit>(w.unit), static_cast<wire::WaveMode>(w.mode), w.wave,
-                                static_cast<wire::Provenance>(w.provenance));
+                                static_cast<wire::Provenance>(w.provenance), w.temperature_C);
 }
 
 Offset<flatbuffers::Vector<Offset<wire::Tile>>> encode(FlatBufferBuilder& fb, const std::vector<TileUpdate>& tiles) {
@@ -128,6 +128,7 @@ Offset<void> encode(FlatBufferBuilder& fb, const DeviceState& m) {
     const auto hashes = fb.CreateVector(m.slotHashes);
     const auto waveform = encode(fb, m.waveform);
     const auto log = fb.CreateVectorOfStrings(m.log);
+    const auto lensName = fb.CreateString(m.lensName);
     wire::DeviceStateBuilder b(fb);
     b.add_now_ns(m.now_ns);
     b.add_light(static_cast<wire::Light>(m.light));
@@ -149,6 +150,11 @@ Offset<void> encode(FlatBufferBuilder& fb, const DeviceState& m) {
     b.add_tiles_received(m.tilesReceived);
     b.add_pid(m.pid);
     b.add_log(log);
+    b.add_lens_name(lensName);
+    b.add_off_wave_D(m.offWave.si());
+    b.add_lens_temperature_C(m.lensTemperature_C);
+    b.add_phase_error_s(m.phaseError.si());
+    b.add_triggers_lost(m.triggersLost);
     return b.Finish().Union();
 }
 
@@ -199,6 +205,7 @@ Result<Waveform> decode(const wire::Waveform& w) {
     wave.unit = *unit;
     wave.wave = w.wave();
     wave.provenance = *provenance;
+    wave.temperature_C = w.temperature_C();
     return wave;
 }
 
@@ -328,6 +335,11 @@ Result<Body> decode(const wire::DeviceState& m) {
     s.calls = m.calls();
     s.tilesReceived = m.tiles_received();
     s.pid = m.pid();
+    s.lensName = text(m.lens_name());
+    s.offWave = Dioptre::fromSi(m.off_wave_D());
+    s.lensTemperature_C = m.lens_temperature_C();
+    s.phaseError = Second::fromSi(m.phase_error_s());
+    s.triggersLost = m.triggers_lost();
     if (m.log() != nullptr)
         for (const auto* line : *m.log())
             s.log.push_back(line->str());

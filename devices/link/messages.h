@@ -106,10 +106,11 @@ struct ReadSlot {
     int slot = 0;
     bool operator==(const ReadSlot&) const = default;
 };
-/// For tests: lets a later call fail. `refuse` answers with an error, `silence` answers nothing from then on, `die`
-/// ends the process.
+/// For tests. The first lets a later call fail: `refuse` answers with an error, `silence` answers nothing from then on,
+/// `die` ends the process. The others befall lens and projector at once: `warmer` by 10 C, a `drift` of the lens's
+/// clock of 100 ppm against the projector's, one `dropTrigger` that the projector does not get. `none` ends them all.
 struct InjectFault {
-    enum class Kind { none, refuse, silence, die };
+    enum class Kind { none, refuse, silence, die, warmer, drift, dropTrigger };
     Kind kind = Kind::none;
     std::uint32_t afterCalls = 0;  ///< 0: the next command
     bool operator==(const InjectFault&) const = default;
@@ -140,7 +141,12 @@ struct DeviceState {
     LensMode lens = LensMode::rest;
     Waveform waveform;
     Dioptre powerNow;
-    Dioptre lensError;  ///< the largest over a sweep between what the lens does and what it was told
+    Dioptre lensError;     ///< the largest that the lens still settles by: how far from repeating its wave
+    std::string lensName;  ///< "simulated lens, preset datasheet"
+    Dioptre offWave;       ///< rms over the last sweep, power against the wave's prediction; 0 until settled
+    double lensTemperature_C = 30.0;
+    Second phaseError;               ///< how late slots are against the lens's sweep
+    std::uint64_t triggersLost = 0;  ///< since slots came on
     std::uint64_t rateChangesUnderSlottedLight = 0;
     std::uint64_t waveformChangesUnderSlottedLight = 0;
     std::uint64_t refusals = 0, watchdogTrips = 0, calls = 0, tilesReceived = 0;

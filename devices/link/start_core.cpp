@@ -74,7 +74,8 @@ Result<void> startDetached(const std::filesystem::path& executable, const std::v
     return {};
 }
 
-Result<void> ensureCoreRunning(const std::filesystem::path& executable, const std::filesystem::path& runtimeDirectory) {
+Result<void> ensureCoreRunning(const std::filesystem::path& executable, const std::filesystem::path& runtimeDirectory,
+                               const std::vector<std::string>& arguments) {
     if (const auto ready = prepareRuntimeDirectory(runtimeDirectory); !ready) return ready;
     const auto deadline = std::chrono::steady_clock::now() + kStartTime;
     const auto log = stateDirectory() / "output-core.out";
@@ -91,7 +92,9 @@ Result<void> ensureCoreRunning(const std::filesystem::path& executable, const st
         if (!starting) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     if (!FileLock::holder(supervisorLock(runtimeDirectory))) {
-        const auto started = startDetached(executable, {"--runtime-dir", runtimeDirectory.string()}, log);
+        std::vector<std::string> all{"--runtime-dir", runtimeDirectory.string()};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const auto started = startDetached(executable, all, log);
         if (!started) return started;
     }
     if (answers(link, deadline)) return {};

@@ -22,7 +22,14 @@ bool readable(int fd) {
 /// Faults a test asked for, counted down with every order that is not a question.
 class Faults {
 public:
-    void inject(const InjectFault& fault) { fault_ = fault; }
+    /// False: it is not of these; lens or projector shall have it.
+    bool inject(const InjectFault& fault) {
+        using Kind = InjectFault::Kind;
+        if (fault.kind == Kind::none) fault_ = fault;
+        if (fault.kind != Kind::refuse && fault.kind != Kind::silence && fault.kind != Kind::die) return false;
+        fault_ = fault;
+        return true;
+    }
     InjectFault::Kind next(const Body& request) {
         if (std::holds_alternative<Read>(request) || std::holds_alternative<ReadSlot>(request))
             return fault_.kind == InjectFault::Kind::silence && fault_.afterCalls == 0 ? fault_.kind
@@ -40,7 +47,7 @@ private:
 
 }  // namespace
 
-Result<void> serveDevices(const std::filesystem::path& runtimeDirectory, int stopDescriptor,
+Result<void> serveDevices(const std::filesystem::path& runtimeDirectory, SimulatedLens lens, int stopDescriptor,
                           const std::function<void(const std::string&)>& said) {
     auto lock = FileLock::tryTake(devicesLock(runtimeDirectory));
     if (!lock) return tl::unexpected(lock.error());
@@ -48,11 +55,11 @@ Result<void> serveDevices(const std::filesystem::path& runtimeDirectory, int sto
     auto server = Server::open(devicesAddress(runtimeDirectory));
     if (!server) return tl::unexpected(server.error());
 
-    Machine machine(monotonicNs());
+    Machine machine(monotonicNs(), lens);
     machine.setWatchdog(kWatchdogNs);
     Faults faults;
     std::string player;  // who put the slots on show: whose silence means that nobody watches over them
-    said("simulated lens and projector: steady light, lens at rest");
+    said("simulated lens (" + std::string(word(lens)) + ") and projector: steady light, lens at rest");
     while (!readable(stopDescriptor)) {
         (*server)->wait(std::chrono::milliseconds(50), {stopDescriptor});
         // All that waits is taken first: after a stall of this process the player's word must count before time does.
@@ -70,8 +77,8 @@ Result<void> serveDevices(const std::filesystem::path& runtimeDirectory, int sto
             }
             const Message& message = *received;
             if (const auto* fault = std::get_if<InjectFault>(&message.body)) {
-                faults.inject(*fault);
-                (*server)->send(client, {message.id, Done{now}});
+                const bool taken = faults.inject(*fault);
+                (*server)->send(client, {message.id, taken ? Body(Done{now}) : machine.answered(*fault, now)});
                 continue;
             }
             const auto fault = faults.next(message.body);

@@ -95,6 +95,9 @@ private:
     double owed_s_ = 0.0;    ///< rest of a call too short for a step
 };
 
+/// Why a lens with these limits must not be driven so, in one sentence.
+Result<void> playable(const Harmonics& drive, Hertz rate, const DriveLimits& limits);
+
 /// Plays until the wave repeats, warm as it gets in the end, then samples like a photodiode: `samples` of one period,
 /// averaged over `periods`, each with white noise of `noise_D` before averaging. Deterministic for a seed.
 struct RecordOptions {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/plan/plan.h"
+#include "core/lens/waveform.h"
 
 namespace ilf::devices {
 

@@ -17,16 +17,13 @@ std::string millivolts(double volt) {
     return out;
 }
 
-Result<void> playable(const Harmonics& drive, Hertz rate, const RecordOptions& options, const DriveLimits& limits) {
-    if (!isFinite(drive)) {
-        return fail(Fault::outOfRange, "The lens's drive has a value that is not a number; nothing was recorded.");
-    }
-    if (!(rate >= 1.0_Hz && rate <= 1000.0_Hz)) {
-        return fail(Fault::outOfRange, "The simulated lens records waves of 1 to 1000 Hz; choose a rate in between.");
-    }
-    if (options.samples < 1 || options.periods < 1 || !(options.noise_D >= 0.0) || !isFinite(options.settle)) {
-        return fail(Fault::outOfRange, "A record needs at least one sample, one period and no negative noise.");
-    }
+}  // namespace
+
+Result<void> playable(const Harmonics& drive, Hertz rate, const DriveLimits& limits) {
+    if (!isFinite(drive))
+        return fail(Fault::outOfRange, "The lens's drive has a value that is not a number; plan or calibrate again.");
+    if (!(rate >= 1.0_Hz && rate <= 1000.0_Hz))
+        return fail(Fault::outOfRange, "The simulated lens plays waves of 1 to 1000 Hz; choose a rate in between.");
     const Extremes ends = extremes(drive);
     const double peak = std::max(std::abs(ends.low), std::abs(ends.high));
     if (!(peak <= limits.peak * kRounding)) {
@@ -41,10 +38,10 @@ Result<void> playable(const Harmonics& drive, Hertz rate, const RecordOptions& o
     return {};
 }
 
-}  // namespace
-
 Result<LensRecord> recorded(LensEmulator& lens, const Harmonics& drive, Hertz rate, const RecordOptions& options) {
-    if (auto fine = playable(drive, rate, options, lens.limits()); !fine) return tl::unexpected(fine.error());
+    if (options.samples < 1 || options.periods < 1 || !(options.noise_D >= 0.0) || !isFinite(options.settle))
+        return fail(Fault::outOfRange, "A record needs at least one sample, one period and no negative noise.");
+    if (auto fine = playable(drive, rate, lens.limits()); !fine) return tl::unexpected(fine.error());
     LensRecord record;
     record.family = drive.c.size() <= 2 ? "sine" : "multisine";
     record.rate = rate;

@@ -9,6 +9,8 @@
 namespace ilf::devices {
 namespace {
 
+// What the injected faults are.
+constexpr double kRoom_C = 30.0, kWarmer_C = 10.0, kDrift_ppm = 100.0;
 // Enough to read what happened around a fault.
 constexpr std::size_t kLogLines = 64;
 
@@ -20,7 +22,7 @@ std::string written(Dioptre power) {
 
 bool canBePlayed(const Waveform& w) {
     return isFinite(w.rest) && isFinite(w.low) && isFinite(w.high) && isFinite(w.rate) && w.rate > 0.0_Hz &&
-           w.low <= w.high && isFinite(w.power) && isFinite(w.drive);
+           w.low <= w.high && isFinite(w.power) && isFinite(w.drive) && std::isfinite(w.temperature_C);
 }
 
 Waveform resting(const Waveform& w) { return stillWave(w.rest, w.rest, w.rate); }
@@ -34,6 +36,12 @@ std::uint64_t imageHash(const LightImage& image) {
 
 }  // namespace
 
+Machine::Machine(std::int64_t now_ns, SimulatedLens lens)
+    : lensName_(std::string("simulated lens, ") + (lens.preset ? "preset " : "") + std::string(word(lens))),
+      heardNs_(now_ns) {
+    if (lens.preset) emulated_.emplace(*lens.preset, now_ns);
+}
+
 void Machine::note(std::string line) {
     log_.push_back(std::move(line));
     if (log_.size() > kLogLines) log_.pop_front();
@@ -46,6 +54,7 @@ Body Machine::refused(std::string why, bool sendWhole) {
 }
 
 void Machine::advance(std::int64_t now_ns) {
+    if (emulated_) emulated_->advance(now_ns);
     if (swapAtNs_ && now_ns >= *swapAtNs_) {
         // An image that stayed shares its boxes, so that telling so is much cheaper than hashing it again.
         std::vector<std::uint64_t> hashes;
@@ -59,6 +68,11 @@ void Machine::advance(std::int64_t now_ns) {
         light_ = LightMode::slotted;
         ++counters_.swaps;
         counters_.swapped_ns = *std::exchange(swapAtNs_, std::nullopt);
+    }
+    if (light_ == LightMode::slotted && std::exchange(dropTrigger_, false)) {
+        ++counters_.triggersLost;
+        slotsLate_ += 1.0 / slotRate_;
+        note("a trigger is lost");
     }
     if (watchdogNs_ && light_ == LightMode::slotted && now_ns - heardNs_ > *watchdogNs_) {
         ++counters_.watchdogTrips;
@@ -84,6 +98,10 @@ Body Machine::obeyed(const ProgramUpdate& update) {
 Body Machine::obeyed(const SetWaveform& order, std::int64_t now_ns) {
     if (!canBePlayed(order.waveform)) return refused("The lens cannot play a wave without finite powers and a rate.");
     if (light_ == LightMode::slotted) ++counters_.waveformChangesUnderSlottedLight;
+    if (emulated_) {
+        if (const auto fine = emulated_->playable(order.waveform); !fine) return refused(fine.error().what);
+        emulated_->play(order.waveform, now_ns);
+    }
     lens_ = lens_.told(order.waveform, now_ns);
     lensMode_ = order.waveform.still() ? LensMode::holding : LensMode::sweeping;
     note("wave " + written(order.waveform.low) + " to " + written(order.waveform.high));
@@ -114,13 +132,19 @@ Body Machine::obeyed(const Swap&, std::int64_t now_ns) {
 Body Machine::obeyed(const SteadyLight&, std::int64_t now_ns) {
     swapAtNs_.reset();
     light_ = LightMode::steady;
+    counters_.triggersLost = 0;
+    slotsLate_ = {};
     note("steady light");
     return Done{now_ns};
 }
 
 Body Machine::obeyed(const LensToRest&, std::int64_t now_ns) {
     if (light_ == LightMode::slotted) ++counters_.waveformChangesUnderSlottedLight;
-    if (lensMode_ != LensMode::rest) lens_ = lens_.told(resting(lens_.wave()), now_ns);
+    if (lensMode_ != LensMode::rest) {
+        const Waveform rest = resting(lens_.wave());
+        if (emulated_) emulated_->play(rest, now_ns);
+        lens_ = lens_.told(rest, now_ns);
+    }
     lensMode_ = LensMode::rest;
     note("lens to rest");
     return Done{now_ns};
@@ -135,6 +159,22 @@ Body Machine::obeyed(const ReadSlot& order) const {
     return SlotImage{order.slot, front_.images[index], imageHashes_[index]};
 }
 
+Body Machine::obeyed(const InjectFault& order, std::int64_t now_ns) {
+    using Kind = InjectFault::Kind;
+    if ((order.kind == Kind::warmer || order.kind == Kind::drift) && !emulated_)
+        return refused("The ideal lens knows neither warmth nor a clock of its own; start an emulated one.");
+    if (order.kind == Kind::refuse || order.kind == Kind::silence || order.kind == Kind::die)
+        return refused("Only the devices' process can fail like this.");
+    if (order.kind == Kind::dropTrigger) dropTrigger_ = true;
+    if (order.kind == Kind::warmer) emulated_->setAmbient(kRoom_C + kWarmer_C);
+    if (order.kind == Kind::drift) emulated_->setDrift(kDrift_ppm);
+    if (order.kind == Kind::none) {
+        dropTrigger_ = false;
+        if (emulated_) emulated_->setAmbient(kRoom_C), emulated_->setDrift(0.0);
+    }
+    return Done{now_ns};
+}
+
 Body Machine::answered(const Body& request, std::int64_t now_ns) {
     advance(now_ns);
     ++counters_.calls;
@@ -145,6 +185,7 @@ Body Machine::answered(const Body& request, std::int64_t now_ns) {
     if (const auto* order = std::get_if<SteadyLight>(&request)) return obeyed(*order, now_ns);
     if (const auto* order = std::get_if<LensToRest>(&request)) return obeyed(*order, now_ns);
     if (const auto* order = std::get_if<ReadSlot>(&request)) return obeyed(*order);
+    if (const auto* order = std::get_if<InjectFault>(&request)) return obeyed(*order, now_ns);
     if (std::holds_alternative<Read>(request)) return state(now_ns);
     return refused("Lens and projector do not know this order.");
 }
@@ -161,8 +202,20 @@ DeviceState Machine::state(std::int64_t now_ns) const {
             s.slotHashes.push_back(image == Program::kDark ? 0 : imageHashes_[static_cast<std::size_t>(image)]);
     s.lens = lensMode_;
     s.waveform = lens_.wave();
-    s.powerNow = lens_.powerAt(now_ns);
-    s.lensError = lens_.errorAt(now_ns);
+    s.lensName = lensName_;
+    s.phaseError = slotsLate_;
+    if (emulated_) {
+        EmulatedLens then = *emulated_;
+        then.advance(now_ns);
+        s.powerNow = then.power();
+        s.lensError = then.unsettled();
+        s.offWave = then.offWave();
+        s.lensTemperature_C = then.temperature_C();
+        s.phaseError += then.ahead();
+    } else {
+        s.powerNow = lens_.powerAt(now_ns);
+        s.lensError = lens_.errorAt(now_ns);
+    }
     s.log.assign(log_.begin(), log_.end());
     return s;
 }

@@ -8,15 +8,17 @@
 #include <vector>
 
 #include "devices/link/messages.h"
+#include "devices/simulated/emulated_lens.h"
 #include "devices/simulated/lens_model.h"
 
 namespace ilf::devices {
 
 /// Switched on it shows steady white light and rests at 0 D. The lens obeys whatever it is told; the projector refuses
-/// a new slot rate while slots are on show, as a DMD controller does. Times are in nanoseconds and never go back.
+/// a new slot rate while slots are on show, as a DMD controller does. An emulated lens refuses waves it has no drive
+/// for; the ideal one takes powers. Times are in nanoseconds and never go back.
 class Machine {
 public:
-    explicit Machine(std::int64_t now_ns = 0) : heardNs_(now_ns) {}
+    explicit Machine(std::int64_t now_ns = 0, SimulatedLens lens = {});
 
     /// Does what `request` asks and answers it: Done, Refused, DeviceState or SlotImage.
     Body answered(const Body& request, std::int64_t now_ns);
@@ -41,12 +43,17 @@ private:
     Body obeyed(const SteadyLight& order, std::int64_t now_ns);
     Body obeyed(const LensToRest& order, std::int64_t now_ns);
     Body obeyed(const ReadSlot& order) const;
+    Body obeyed(const InjectFault& order, std::int64_t now_ns);
     Body refused(std::string why, bool sendWhole = false);
     void note(std::string line);
 
     LightMode light_ = LightMode::steady;
     LensMode lensMode_ = LensMode::rest;
-    LensModel lens_;
+    LensModel lens_;                        ///< the wave and when its sweeps start; the ideal lens's power too
+    std::optional<EmulatedLens> emulated_;  ///< none: the ideal lens
+    std::string lensName_;
+    bool dropTrigger_ = false;  ///< the next one
+    Second slotsLate_;          ///< by triggers that were lost
     Hertz slotRate_ = 960.0_Hz;
     Program back_, front_;
     std::uint64_t backHash_ = 0, frontHash_ = 0;  ///< 0: nothing

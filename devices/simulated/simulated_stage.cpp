@@ -1,12 +1,19 @@
 #include "devices/simulated/simulated_stage.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 
 #include "devices/link/program_update.h"
 
 namespace ilf::devices {
+namespace {
+
+// A lens that has not settled by then never will: thirty sweeps of the slowest that are played.
+constexpr std::int64_t kLongestSettlingNs = 500'000'000, kSettlingStepNs = 5'000'000;
+
+}  // namespace
 
 Result<void> SimulatedStage::load(const Program& program) {
     const std::uint64_t hash = contentHash(program);
@@ -47,15 +54,47 @@ Result<void> SimulatedStage::startSweep() {
     if (!wave) return tl::unexpected(wave.error());
     predicted_ = predicted_.told(loaded_.waveform, wave->at_ns);
     told_ = loaded_.waveform;
+    if (const auto still = settled(); !still) return still;
+    return withinBudgets();
+}
+
+Result<void> SimulatedStage::settled() {
     port_.waitUntil(predicted_.settledNs(kSettledLens));
-    if (const auto known = read(); !known) return known;
-    // The prediction starts from what we told the lens; the lens may have been told something else before.
-    if (state_->lensError > kSettledLens) {
-        port_.waitUntil(port_.nowNs() + static_cast<std::int64_t>(kLensTimeConstant.in(1.0_s) * 5e9));
+    const std::int64_t deadline = port_.nowNs() + kLongestSettlingNs;
+    while (true) {
         if (const auto known = read(); !known) return known;
+        if (state_->lensError <= kSettledLens) return {};
+        if (port_.nowNs() >= deadline) break;
+        port_.waitUntil(port_.nowNs() + kSettlingStepNs);
     }
-    if (state_->lensError > kSettledLens)
-        return fail(Fault::device, "The lens does not reach its wave; the light stays steady. Check the lens driver.");
+    return fail(Fault::device, "The lens does not settle on its wave; the light stays steady. Check the lens driver.");
+}
+
+Result<void> SimulatedStage::withinBudgets() const {
+    if (!told_) return {};
+    const auto number = [](const char* format, double value) {
+        std::array<char, 32> text{};
+        std::snprintf(text.data(), text.size(), format, value);
+        return std::string(text.data());
+    };
+    const double off_C = state_->lensTemperature_C - told_->temperature_C;
+    if (std::abs(off_C) > kTemperatureBudget_C) {
+        return fail(Fault::device, "The lens is at " + number("%.1f C", state_->lensTemperature_C) + ", " +
+                                       number("%.1f C", std::abs(off_C)) + (off_C > 0.0 ? " above" : " below") +
+                                       " what its wave was planned for; let it come back, or plan again at this "
+                                       "temperature.");
+    }
+    if (state_->light != LightMode::slotted) return {};
+    if (state_->triggersLost > 0) {
+        return fail(Fault::device, "The projector missed a trigger, so that its slots are " +
+                                       number("%.2f ms", state_->phaseError.in(1.0_ms)) +
+                                       " off the lens's sweep; check the trigger cable, then TAKE.");
+    }
+    if (!told_->still() && abs(state_->phaseError) > kPhaseBudget) {
+        return fail(Fault::device, "Slots and lens have drifted " +
+                                       number("%.2f ms", abs(state_->phaseError).in(1.0_ms)) +
+                                       " apart; let both run from one clock, then TAKE.");
+    }
     return {};
 }
 
@@ -81,7 +120,7 @@ Result<void> SimulatedStage::confirmed() {
     const LensMode expected = !told_ ? LensMode::rest : told_->still() ? LensMode::holding : LensMode::sweeping;
     if (state_->lens != expected || (told_ && state_->waveform != *told_))
         return fail(Fault::device, "The lens does something else than it was told; was its driver restarted?");
-    return {};
+    return withinBudgets();
 }
 
 StageReport SimulatedStage::report() const {
@@ -111,6 +150,11 @@ StageReport SimulatedStage::report() const {
         std::snprintf(line.data(), line.size(), "simulated lens: %s at %.2f D",
                       state_->lens == LensMode::rest ? "at rest" : "still", state_->waveform.low.si());
     report.lensLine = line.data();
+    if (state_->offWave > kOffWave) {
+        std::snprintf(line.data(), line.size(), "; it is %.2f D from its predicted wave: calibrate again",
+                      state_->offWave.si());
+        report.lensLine += line.data();
+    }
     return report;
 }
 

@@ -9,9 +9,16 @@
 
 namespace ilf::devices {
 
-/// Slots come on once the lens is predicted to be this near its wave: half of what the planner lets a level err, the
-/// other half being the wave's own.
-inline constexpr Dioptre kSettledLens = 0.5 * kFocusErrorBudget;
+/// Slots come on once the lens is predicted to be this near its wave: half of what the planner usually lets a level
+/// err, the other half being the wave's own.
+inline constexpr Dioptre kSettledLens = 0.05_D;
+
+/// While slots are on show (scheduling 8): the phase between slots and sweep, and how far the lens may be from the
+/// temperature its wave is predicted for.
+inline constexpr Second kPhaseBudget = 200.0_us;
+inline constexpr double kTemperatureBudget_C = 5.0;
+/// A lens this far (rms over a sweep) from its predicted wave is told of in the status line; the show goes on.
+inline constexpr Dioptre kOffWave = 0.25_D;
 
 /// Starting is ordered: steady light, then the sweep, then slots; stopping is the same way back. A program with the
 /// same wave and slot rate as the one that plays is swapped in without steady light between.
@@ -28,7 +35,9 @@ public:
 
 private:
     Result<void> startSweep();
+    Result<void> settled();
     Result<void> confirmed();
+    Result<void> withinBudgets() const;
     Result<void> read();
 
     DevicePort& port_;

@@ -30,9 +30,10 @@ inline int kills() {
     return set != nullptr && std::atoi(set) > 0 ? std::atoi(set) : 10;
 }
 
+/// On the ideal lens, which plays the powers of programs made by hand, unless told another.
 class OutputCore {
 public:
-    OutputCore() : directory_(temporary()) {
+    explicit OutputCore(std::string lens = "ideal") : directory_(temporary()), lens_(std::move(lens)) {
         setenv("XDG_STATE_HOME", (directory_ / "state").c_str(), 1);
         start();
     }
@@ -47,7 +48,7 @@ public:
     OutputCore& operator=(const OutputCore&) = delete;
 
     void start() {
-        const auto running = devices::ensureCoreRunning(ILF_CORE_PATH, directory_);
+        const auto running = devices::ensureCoreRunning(ILF_CORE_PATH, directory_, {"--simulated-lens", lens_});
         REQUIRE_MESSAGE(running.has_value(), (running ? "" : running.error().what));
     }
     const std::filesystem::path& directory() const { return directory_; }
@@ -102,6 +103,7 @@ private:
         return name;
     }
     std::filesystem::path directory_;
+    std::string lens_;
 };
 
 inline bool safe(const devices::DeviceState& s) {

@@ -205,6 +205,7 @@ TEST_CASE("the core's words: help, version, status as JSON, stop") {
     CHECK(ran("--help").exitCode == 0);
     CHECK(ran("--version").output.starts_with("illuminatedfocus-core "));
     CHECK(ran("--nonsense").exitCode == 2);
+    CHECK(ran("--simulated-lens glass").exitCode == 2);
     auto link = core.connected();
     OutputCore::take(link, program(1), 7);
     const auto status = ran(in(core) + "--status");
@@ -224,8 +225,10 @@ TEST_CASE("the core's words: help, version, status as JSON, stop") {
 TEST_CASE("stopped with --leave-devices, the light that stays is steady") {
     OutputCore core;
     CHECK(ran(in(core) + "--stop").exitCode == 0);
-    REQUIRE(devices::startDetached(ILF_CORE_PATH, {"--leave-devices", "--runtime-dir", core.directory().string()},
-                                   core.directory() / "out.txt")
+    REQUIRE(devices::startDetached(
+                ILF_CORE_PATH,
+                {"--leave-devices", "--simulated-lens", "ideal", "--runtime-dir", core.directory().string()},
+                core.directory() / "out.txt")
                 .has_value());
     auto link = core.connected();
     OutputCore::take(link, program(1), 1);

@@ -32,6 +32,7 @@ Waveform anyWave() {
     wave.unit = *rc::gen::element(DriveUnit::volt, DriveUnit::ampere);
     wave.wave = *rc::gen::arbitrary<std::int64_t>();
     wave.provenance = *rc::gen::element(Provenance::simulated, Provenance::measured, Provenance::imported);
+    wave.temperature_C = anyNumber();
     return wave;
 }
 LightMode anyLight() { return *rc::gen::element(LightMode::steady, LightMode::slotted); }
@@ -86,6 +87,11 @@ DeviceState anyState() {
     s.calls = anyWord();
     s.tilesReceived = anyWord();
     s.pid = *rc::gen::arbitrary<int>();
+    s.lensName = anyText();
+    s.offWave = anyPower();
+    s.lensTemperature_C = anyNumber();
+    s.phaseError = Second::fromSi(anyNumber());
+    s.triggersLost = anyWord();
     s.log = *rc::gen::arbitrary<std::vector<std::string>>();
     return s;
 }
@@ -134,7 +140,8 @@ Message anyMessage(std::size_t kind) {
     case 12:
         return {id, ReadSlot{small()}};
     case 13:
-        return {id, InjectFault{InjectFault::Kind::silence, static_cast<std::uint32_t>(small())}};
+        return {id, InjectFault{*rc::gen::element(InjectFault::Kind::silence, InjectFault::Kind::dropTrigger),
+                                static_cast<std::uint32_t>(small())}};
     case 14:
         return {id, Done{*rc::gen::arbitrary<std::int64_t>()}};
     case 15:
