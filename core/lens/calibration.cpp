@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/lens/drive_range.h"
 #include "core/lens/sine_record.h"
 
 namespace ilf {
@@ -60,6 +59,12 @@ std::string beyondLimits(const LensCalibration& lens, const Waveform& wave) {
     return {};
 }
 
+Harmonics sine(const SineDrive& drive) {
+    Harmonics u{{drive.offset}};
+    if (drive.amplitude != 0.0) u.c.emplace_back(0.0, -drive.amplitude);
+    return u;
+}
+
 /// Power and drive as the lens is asked to play them: delayed together so that what is at `from` falls on `lowAt`.
 Waveform asWished(const WaveWish& wish, WaveMode mode, const Harmonics& power, const Harmonics& drive, double from) {
     Waveform wave;
@@ -71,6 +76,15 @@ Waveform asWished(const WaveWish& wish, WaveMode mode, const Harmonics& power, c
     wave.power = power.delayed(wish.lowAt - from);
     wave.drive = drive.delayed(wish.lowAt - from);
     return wave;
+}
+
+/// The x of a sine's wave that is to fall on `lowAt`. Slots lie on a grid, and the highest power need not lie a whole
+/// number of them behind the lowest: each extreme gets half of what is over.
+double lowSlotIn(const Harmonics& power, const WaveWish& wish) {
+    const Extremes e = extremes(power);
+    const double apart = e.atHigh - e.atLow;
+    if (!(wish.slotLength > 0.0)) return e.atLow;
+    return e.atLow + 0.5 * (apart - wish.slotLength * std::round(apart / wish.slotLength));
 }
 
 /// The largest high for which a recorded wave is chosen, all else equal; none when no wave has this low.
@@ -106,8 +120,7 @@ WaveChoice fromTable(const LensCalibration& lens, WaveMode mode, const WaveWish&
     const TableWave& chosen = table->waves[*index];
     const Harmonics power = lessConstant(chosen.power, -shift);
     const SineDrive drive{0.5 * (chosen.driveLow + chosen.driveHigh), 0.5 * (chosen.driveHigh - chosen.driveLow)};
-    WaveChoice choice{
-        asWished(wish, mode, power, sineDrive(drive), extremes(power).atLow), {}, Dioptre::fromSi(*reach)};
+    WaveChoice choice{asWished(wish, mode, power, sine(drive), lowSlotIn(power, wish)), {}, Dioptre::fromSi(*reach)};
     choice.wave->unit = lens.unit;
     choice.wave->wave = chosen.id;
     choice.wave->provenance = lens.provenance;
@@ -123,7 +136,7 @@ WaveChoice fromModel(const LensCalibration& lens, const WaveWish& wish) {
         const auto found = inverted(*model, low, upTo, shift, wish.slotLength);
         if (!found) return std::nullopt;
         Waveform made =
-            asWished(wish, WaveMode::continuous, found->power, sineDrive(found->drive), extremes(found->power).atLow);
+            asWished(wish, WaveMode::continuous, found->power, sine(found->drive), lowSlotIn(found->power, wish));
         made.unit = model->unit;
         made.provenance = model->provenance;
         return made;

@@ -31,8 +31,9 @@ struct WaveWish {
     Dioptre rest, low, high;
     Hertz rate = 60.0_Hz;
     std::vector<Dioptre> levels;  ///< powers at which something is lit, ascending; shaped waves hold them
-    /// When slots lie, in sweeps: slotAware judges waves by them, and every wave is delayed so that its lowest power
-    /// (shaped: the middle of its hold of the lowest level) falls on `lowAt`.
+    /// When slots lie, in sweeps: one about `lowAt`, and so on each `slotLength`. Waves are judged by them and delayed
+    /// so that the lowest power falls on `lowAt` and the highest on the middle of a slot, or both beside it by the same
+    /// time, never more than a quarter of a slot. Shaped: the middle of the hold of the lowest level falls on `lowAt`.
     double slotLength = 1.0 / 16.0;
     double lowAt = 0.5 / 16.0;
     bool operator==(const WaveWish&) const = default;

@@ -147,19 +147,23 @@ Harmonics ContinuousModel::power(double offset, double amplitude) const {
 
 Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift_D_per_C) {
     const std::size_t least = 3 * modelTerms(kLeastDegree, 0).size() / 2;
-    if (records.size() < least) {
+    const auto tooFew = [&](std::size_t count) {
         return fail(Fault::notFound, "A lens model needs at least " + std::to_string(least) + " recorded waves, not " +
-                                         std::to_string(records.size()) + ": record some more, 40 are usual.");
-    }
+                                         std::to_string(count) + ": record some more, 40 are usual.");
+    };
+    if (records.size() < least) return tooFew(records.size());
     ContinuousModel model;
     model.rate = records.front().rate;
     model.unit = records.front().unit;
     model.provenance = records.front().provenance;
     std::vector<SineRecord> sines;
+    std::vector<const LensRecord*> used;
     std::vector<SineDrive> drives;
     for (const LensRecord& record : records) {
         auto sine = sineRecord(record, model.rate);
         if (!sine) return tl::unexpected(sine.error());
+        // Where a lens with a loop stands still depends on where it came from: no record of what a sine does.
+        if (sine->amplitude == 0.0) continue;
         if (record.unit != model.unit || record.provenance != model.provenance) {
             return fail(Fault::badFile, "Record " + std::to_string(record.id) +
                                             " differs from the first in its drive's unit or in where it comes from: "
@@ -168,7 +172,9 @@ Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift
         drives.push_back({sine->offset, sine->amplitude});
         drives.push_back({sine->offset, -sine->amplitude});
         sines.push_back(*std::move(sine));
+        used.push_back(&record);
     }
+    if (sines.size() < least) return tooFew(sines.size());
 
     const auto byOffset = [](const SineDrive& p, const SineDrive& q) { return p.offset < q.offset; };
     const auto [leftmost, rightmost] = std::ranges::minmax_element(drives, byOffset);
@@ -186,7 +192,7 @@ Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift
     Points points;
     model.driveLow = std::numeric_limits<double>::infinity();
     model.driveHigh = -model.driveLow;
-    for (std::size_t r = 0; r < records.size(); ++r) {
+    for (std::size_t r = 0; r < sines.size(); ++r) {
         const SineRecord& sine = sines[r];
         points.offset.push_back((sine.offset - model.offsetMiddle) / model.offsetScale);
         points.amplitude.push_back(sine.amplitude / model.amplitudeScale);
@@ -196,7 +202,7 @@ Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift
     }
     std::optional<Fit> best;
     for (int degree = kLeastDegree; degree <= kLargestModelDegree && areaScale > 0.0; ++degree) {
-        if (2 * records.size() < 3 * modelTerms(degree, 0).size()) break;
+        if (2 * sines.size() < 3 * modelTerms(degree, 0).size()) break;
         for (const double bend : kBends) {
             auto tried = fit(points, degree, bend);
             if (!tried || (best && tried->press >= best->press)) continue;
@@ -214,10 +220,10 @@ Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift
 
     double squares = 0.0;
     std::size_t count = 0;
-    for (std::size_t r = 0; r < records.size(); ++r) {
+    for (std::size_t r = 0; r < sines.size(); ++r) {
         const Harmonics predicted = model.power(sines[r].offset, sines[r].amplitude);
         const double warmer = drift_D_per_C * room.warmerThanThat_C[r];
-        const auto& samples = records[r].power_D;
+        const auto& samples = used[r]->power_D;
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const double x = static_cast<double>(i) / static_cast<double>(samples.size()) + sines[r].late;
             const double off = std::abs(samples[i] - warmer - predicted.at(x));

@@ -146,6 +146,20 @@ TEST_CASE("continuous model: a sine that was recorded from elsewhere in its peri
     CHECK(found->power(0.01, 0.01).at(0.3) == doctest::Approx(straight.power(0.01, 0.01).at(0.3)));
 }
 
+TEST_CASE("continuous model: records of a lens that stands still tell nothing of how it sweeps") {
+    auto records = someRecords(20, 0.0);
+    const ContinuousModel without = *fitted(records);
+    for (int i = 0; i < 8; ++i) {
+        records.push_back(SyntheticLens{}.record(100 + i, 0.004 * i, 0.0, 60.0_Hz));
+        for (double& p : records.back().power_D)
+            p += i % 2 == 0 ? 0.25 : -0.25;  // a loop's memory
+    }
+    const auto with = fitted(records);
+    REQUIRE(with);
+    CHECK(with->power(0.01, 0.002).mean() == without.power(0.01, 0.002).mean());
+    CHECK(fitted(std::span(records).last(16)).error().fault == Fault::notFound);
+}
+
 TEST_CASE("continuous model: drives to record lie in the range, touch its borders and are all different") {
     law("drives", [] {
         const auto count = static_cast<std::size_t>(*rc::gen::inRange(9, 80));
