@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kMaxJsonBytes = std::size_t{64} << 20;
 const char* const kWearerFormat = "illuminatedfocus-wearer";
 const char* const kRigFormat = "illuminatedfocus-rig";
+const std::vector<std::string> kProjectorKinds{"high-speed", "lightcrafter-4500"};
 const std::vector<std::string> kPresets{"one-arcmin", "depth-of-field", "landolt", "typed"};
 
 Json written(const LensAxis& axis, Json json) {
@@ -128,6 +129,18 @@ Json written(const Rig& rig, Json json) {
     json.set("projector_delay_s", rig.projectorDelay.si());
     json.set("lens_min_D", rig.lensMin.si());
     json.set("lens_max_D", rig.lensMax.si());
+    json.set("projector_kind", kProjectorKinds[static_cast<std::size_t>(rig.kind)]);
+    json.set("bits", rig.bits);
+    json.set("fastest_slot_rate_Hz", rig.fastest.si());
+    json.set("waves", std::string(word(rig.waves)));
+    json.set("lens", rig.lens);
+    json.set("power_budget_D", rig.powerBudget.si());
+    json.set("blur_budget_share", rig.blurShare);
+    Json room = json.object("room");
+    room.set("projector_lm", rig.room.projector_lm);
+    room.set("lit_area_m2", rig.room.litArea_m2);
+    room.set("ambient_lx", rig.room.ambient_lx);
+    json.set("room", room);
     if (rig.registration) {
         json.set("projector_from_camera", std::vector<double>(rig.registration->m.begin(), rig.registration->m.end()));
     } else {
@@ -151,6 +164,23 @@ Result<Rig> rigFrom(const Json& json, const std::string& file) {
     rig.projectorDelay = Second::fromSi(reader.number("projector_delay_s"));
     rig.lensMin = Dioptre::fromSi(reader.number("lens_min_D"));
     rig.lensMax = Dioptre::fromSi(reader.number("lens_max_D"));
+    // Rigs saved before there was a choice have none of these.
+    if (reader.has("projector_kind")) {
+        rig.kind = static_cast<ProjectorKind>(reader.choice("projector_kind", kProjectorKinds));
+    }
+    rig.bits = reader.has("bits") ? reader.whole("bits") : rig.bits;
+    const Hertz fastest = std::max(rig.fastest, rig.slotRate);
+    rig.fastest = Hertz::fromSi(reader.number("fastest_slot_rate_Hz", fastest.si()));
+    const auto waves = waveModeFromWord(reader.word("waves", std::string(word(rig.waves))));
+    if (!waves) reader.complain("waves", "must be ideal-sine, paper, slot-aware, continuous or shaped");
+    rig.waves = waves.value_or(rig.waves);
+    rig.lens = reader.word("lens", rig.lens);
+    rig.powerBudget = Dioptre::fromSi(reader.number("power_budget_D", rig.powerBudget.si()));
+    rig.blurShare = reader.number("blur_budget_share", rig.blurShare);
+    if (reader.has("room")) {
+        JsonReader room = reader.object("room");
+        rig.room = {room.number("projector_lm"), room.number("lit_area_m2"), room.number("ambient_lx")};
+    }
     if (reader.has("projector_from_camera")) {
         const std::vector<double> m = reader.numbers("projector_from_camera", 9);
         rig.registration.emplace();

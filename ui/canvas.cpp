@@ -265,7 +265,7 @@ void canvasHeader(Panel& p) {
             std::min(p.px(22), (static_cast<float>(p.at.header.w) - p.px(560)) / static_cast<float>(slots));
         ImDrawList& draw = *ImGui::GetWindowDrawList();
         for (int i = 0; i < slots && each > 4; ++i) {
-            const auto& level = plan->slots[static_cast<std::size_t>(i)].level;
+            const auto level = plan->slots[static_cast<std::size_t>(i)].level();
             const ImU32 ink = !level                                                                    ? colour::dim
                               : plan->levels[static_cast<std::size_t>(*level)].kind == LevelKind::focus ? colour::focus
                                                                                                         : colour::blur;

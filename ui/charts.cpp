@@ -39,8 +39,8 @@ SweepChart sweepChart(const Plan& plan) {
     for (const Slot& slot : plan.slots) {
         SweepChart::Bar bar{slot.index,      slot.start.si() * 1e3, (slot.start + slot.duration).si() * 1e3,
                             slot.power.si(), std::nullopt,          0.0};
-        if (slot.level) {
-            const Level& level = plan.levels[static_cast<std::size_t>(*slot.level)];
+        if (const auto lit = slot.level()) {
+            const Level& level = plan.levels[static_cast<std::size_t>(*lit)];
             bar.kind = level.kind;
             bar.error_D = (slot.power - level.power).si();
         }

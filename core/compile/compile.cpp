@@ -95,18 +95,51 @@ void computed(const std::vector<TilePart>& tiles, Make&& make, Take&& take) {
         take(tiles[i], std::move(results[i]));
 }
 
+/// What each image of the program shows: first every level alone at full light, then what slots show besides: part of a
+/// level's light, or several levels together.
+std::vector<std::vector<LevelLight>> shownLights(const Plan& plan) {
+    std::vector<std::vector<LevelLight>> shown;
+    for (int level = 0; level < static_cast<int>(plan.levels.size()); ++level)
+        shown.push_back({{level, 1.0}});
+    for (const Slot& slot : plan.slots) {
+        if (!slot.lit.empty() && std::ranges::find(shown, slot.lit) == shown.end()) shown.push_back(slot.lit);
+    }
+    return shown;
+}
+
+/// The sum of levels' tiles, each weighted. More than full light is cut off: levels that share a slot lie on different
+/// pixels, but for blurs of different width at their common border.
+Box<Tile> mixed(const std::vector<LevelLight>& lit, const std::vector<Box<Tile>>& levels) {
+    const auto tileOf = [&](const LevelLight& one) -> const Box<Tile>& {
+        return levels[static_cast<std::size_t>(one.level)];
+    };
+    const bool even = std::ranges::all_of(
+        lit, [&](const LevelLight& one) { return tileOf(one).same(uniformTile(tileOf(one)->v[0])); });
+    Tile sum;
+    const std::size_t count = even ? 1 : sum.v.size();
+    std::array<float, kTile * kTile> light{};
+    for (const LevelLight& one : lit) {
+        const auto weight = static_cast<float>(one.weight);
+        const std::uint8_t* v = tileOf(one)->v.data();
+        for (std::size_t i = 0; i < count; ++i)
+            light[i] += weight * static_cast<float>(v[i]);
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        sum.v[i] = static_cast<std::uint8_t>(static_cast<int>(std::min(255.0F, light[i] + 0.5F)));
+    return even ? uniformTile(sum.v[0]) : boxed(sum);
+}
+
 /// One compile in the making.
 class Compiler {
 public:
     Compiler(const Document& document, const Plan& plan, const Compiled* previous)
         : document_(document), regions_(activeRegions(document)), map_(projectorFromCamera(document)),
-          cameraFromProjector_(map_.inverted()), previous_(previous) {
+          cameraFromProjector_(map_.inverted()), shown_(shownLights(plan)), previous_(previous) {
         if (previous_ != nullptr) {
             parts_ = *previous_->parts;
             for (const Region* region : activeRegions(previous_->document))
                 regionsBefore_.push_back(region);
             images_ = previous_->program.images;
-            weights_ = previous_->levelWeights;
             return;
         }
         const Size size = document.rig.projector;
@@ -117,8 +150,7 @@ public:
         parts_.layers.lit.assign(light().layers.size(), TileGrid(size));
         parts_.layers.seen = parts_.layers.lit;
         parts_.layers.hard = TileGrid(size);
-        images_.assign(light().weights.size(), TileGrid(size));
-        weights_ = images_;
+        images_.assign(shown_.size(), TileGrid(size));
     }
 
     void run() {
@@ -137,8 +169,7 @@ public:
         compiled.document = document_;
         compiled.plan = plan;
         compiled.program.images = std::move(images_);
-        compiled.levelWeights = std::move(weights_);
-        const int tiles = light().columns * light().rows * static_cast<int>(light().weights.size());
+        const int tiles = light().columns * light().rows * static_cast<int>(shown_.size());
         compiled.counters.tiles = tiles;
         compiled.counters.computed = computed_;
         compiled.counters.unchanged = tiles - computed_;
@@ -264,13 +295,17 @@ private:
     }
 
     void lightLevels(const std::vector<TilePart>& tiles) {
-        computed<LevelTiles>(
-            tiles, [&](const TilePart& tile) { return levelTiles(light(), parts_.layers, tile, images_); },
-            [&](const TilePart& tile, const LevelTiles& made) {
-                for (std::size_t l = 0; l < made.images.size(); ++l) {
-                    put(images_[l], tile.column, tile.row, made.images[l]);
-                    put(weights_[l], tile.column, tile.row, made.weights[l]);
-                }
+        computed<std::vector<Box<Tile>>>(
+            tiles,
+            [&](const TilePart& tile) {
+                auto made = levelTiles(light(), parts_.layers, tile, images_);
+                for (std::size_t i = made.size(); i < shown_.size(); ++i)
+                    made.push_back(mixed(shown_[i], made));
+                return made;
+            },
+            [&](const TilePart& tile, const std::vector<Box<Tile>>& made) {
+                for (std::size_t i = 0; i < made.size(); ++i)
+                    put(images_[i], tile.column, tile.row, made[i]);
             });
         computed_ = static_cast<int>(tiles.size() * images_.size());
     }
@@ -291,9 +326,10 @@ private:
     std::vector<const Region*> regions_, regionsBefore_;
     Homography<ProjectorFrame, CameraFrame> map_;
     Homography<CameraFrame, ProjectorFrame> cameraFromProjector_;
+    std::vector<std::vector<LevelLight>> shown_;  ///< of each image
     const Compiled* previous_;
     CompileParts parts_;
-    std::vector<TileGrid> images_, weights_;
+    std::vector<TileGrid> images_;
     int computed_ = 0;
 };
 
@@ -340,8 +376,6 @@ Result<Compiled> compile(const Document& document, const Plan& plan, const Compi
         compiled.document = document;
         compiled.plan = plan;
         compiled.program.images = {TileGrid(size, 255)};
-        compiled.levelWeights.assign(plan.levels.size(), TileGrid(size, 0));
-        if (!plan.levels.empty()) compiled.levelWeights.front() = compiled.program.images.front();
         compiled.counters.tiles = compiled.program.images.front().columns() * compiled.program.images.front().rows();
         compiled.counters.unchanged = compiled.counters.tiles;
         compiled.program.imageOfSlot.assign(static_cast<std::size_t>(slotsPerSweep(document.rig)), 0);
@@ -349,8 +383,11 @@ Result<Compiled> compile(const Document& document, const Plan& plan, const Compi
         Compiler compiler(document, plan, shared ? previous : nullptr);
         compiler.run();
         compiled = std::move(compiler).result(plan);
-        for (const Slot& slot : plan.slots)
-            compiled.program.imageOfSlot.push_back(slot.level ? *slot.level : Program::kDark);
+        const std::vector<std::vector<LevelLight>> shown = shownLights(plan);
+        for (const Slot& slot : plan.slots) {
+            const auto image = std::ranges::find(shown, slot.lit) - shown.begin();
+            compiled.program.imageOfSlot.push_back(slot.lit.empty() ? Program::kDark : static_cast<int>(image));
+        }
     }
     compiled.counters.uniform = uniformTiles(compiled.program.images);
     compiled.program.waveform = plan.waveform;

@@ -26,16 +26,13 @@ struct Compiled {
     Document document;
     Plan plan;
     Program program;
-    /// Weight of each level as the surface receives it, before equal-luminance weights and 8-bit rounding of the
-    /// program, projector frame, 255 = all of a region's light: what the overlay and the seam profile show.
-    std::vector<TileGrid> levelWeights;
     CompileCounters counters;
     /// Pictures on the way from masks to light, which the next compile shares where nothing changed.
     std::shared_ptr<const CompileParts> parts;
 
     /// Counters and parts tell how the result was reached, not what it is.
     bool operator==(const Compiled& o) const {
-        return document == o.document && plan == o.plan && program == o.program && levelWeights == o.levelWeights;
+        return document == o.document && plan == o.plan && program == o.program;
     }
 };
 

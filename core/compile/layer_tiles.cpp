@@ -32,9 +32,7 @@ float bandRamp(float a, float b) {
 
 std::uint8_t toByte(float v) { return static_cast<std::uint8_t>(static_cast<int>(v + 0.5F)); }
 
-float fullOf(const Lighting& light, const Layer& layer) {
-    return static_cast<float>(255.0 * light.weights[static_cast<std::size_t>(layer.level)] * layer.share);
-}
+float fullOf(const Layer& layer) { return static_cast<float>(255.0 * layer.share); }
 
 float stepReach(const Lighting& light) { return std::max(static_cast<float>(light.blendReach), light.distanceReach); }
 
@@ -115,7 +113,7 @@ Patch<float> profile(const Lighting& light, const Layer& layer, const SheetNear&
 }
 
 void lightClosed(const Lighting& light, const Layer& layer, const SheetNear& sheet, const TilePart& part, Tile& lit) {
-    const float full = fullOf(light, layer);
+    const float full = fullOf(layer);
     const Patch<float> m = profile(light, layer, sheet, part);
     const ShiftField toPainted(light, layer, &LayerNode::toPainted, part.column, part.row);
     forEachSquare(part.pixels, [&](PixelRect<ProjectorFrame> square) {
@@ -138,7 +136,7 @@ void lightClosed(const Lighting& light, const Layer& layer, const SheetNear& she
 /// The paper's two ramps, which meet in the band between a border and its image.
 void lightLinear(const Lighting& light, const Layer& layer, const SheetNear& sheet, const TilePart& part, Tile& lit,
                  Tile& seen) {
-    const float full = fullOf(light, layer);
+    const float full = fullOf(layer);
     const bool apparent = light.blending == Blending::linearPerceived;
     const ShiftField toSeen(light, layer, &LayerNode::toSeen, part.column, part.row);
     const ShiftField toLit(light, layer, &LayerNode::toLit, part.column, part.row);
@@ -206,7 +204,7 @@ LayerTiles layerTiles(const Visible& visible, const TilePart& part, const LayerG
         const Box<Tile>& weight = visible.weights[static_cast<std::size_t>(layer.sheet)].tile(part.column, part.row);
         const int index = nearOf[static_cast<std::size_t>(layer.sheet)];
         if (index < 0) {
-            tiles.lit.push_back(asPainted(weight, fullOf(light, layer)));
+            tiles.lit.push_back(asPainted(weight, fullOf(layer)));
             tiles.seen.push_back(light.blending == Blending::none ? uniformTile(0) : weight);
             continue;
         }
@@ -217,7 +215,7 @@ LayerTiles layerTiles(const Visible& visible, const TilePart& part, const LayerG
         } else {
             lightLinear(light, layer, near, part, lit, seen);
         }
-        if (!tiles.hard.same(uniformTile(0))) paintHard(*tiles.hard, *weight, fullOf(light, layer), part, lit, seen);
+        if (!tiles.hard.same(uniformTile(0))) paintHard(*tiles.hard, *weight, fullOf(layer), part, lit, seen);
         tiles.lit.push_back(boxed(lit));
         tiles.seen.push_back(light.blending == Blending::closedForm ? uniformTile(0) : boxed(seen));
     }

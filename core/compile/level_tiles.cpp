@@ -19,10 +19,8 @@ std::optional<std::uint8_t> uniformValue(const Box<Tile>& tile) {
     return tile.same(uniformTile(tile->v[0])) ? std::optional(tile->v[0]) : std::nullopt;
 }
 
-/// Light per step of a layer's image, in parts of a region's whole light.
-float perStep(const Lighting& light, const Layer& layer) {
-    return 1.0F / (255.0F * static_cast<float>(light.weights[static_cast<std::size_t>(layer.level)]));
-}
+/// Light per step of a level's image, in parts of a region's whole light.
+constexpr float kPerStep = 1.0F / 255.0F;
 
 /// What an eye sees of a layer all over a tile and as far around as matters, if that is the same everywhere.
 std::optional<float> evenlySeen(const Lighting& light, const LayerGrids& layers, std::size_t index,
@@ -30,7 +28,7 @@ std::optional<float> evenlySeen(const Lighting& light, const LayerGrids& layers,
     const Layer& layer = light.layers[index];
     if (light.blending == Blending::none || light.blending == Blending::closedForm) {
         const auto even = uniformNear(layers.lit[index], tileRect(part.column, part.row).grown(light.blendReach));
-        return even ? std::optional(perStep(light, layer) * static_cast<float>(*even)) : std::nullopt;
+        return even ? std::optional(kPerStep * static_cast<float>(*even)) : std::nullopt;
     }
     const auto even = uniformValue(layers.seen[index].tile(part.column, part.row));
     return even ? std::optional(static_cast<float>(layer.share) / 255.0F * static_cast<float>(*even)) : std::nullopt;
@@ -55,7 +53,6 @@ void addBlurred(const Lighting& light, const LayerGrids& layers, std::size_t ind
         if (!squares.back().flat) varied = varied.united(touched);
     });
     const Patch<float> blurred = varied.empty() ? Patch<float>() : disc.averaged(lit, varied);
-    const float per = perStep(light, layer);
     for (const Square& square : squares) {
         const PixelRect<ProjectorFrame>& at = square.pixels;
         for (int y = at.y0; y < at.y1; ++y) {
@@ -63,10 +60,10 @@ void addBlurred(const Lighting& light, const LayerGrids& layers, std::size_t ind
             const ShiftField::Row shifts = toLit.row(y);
             for (int x = 0; x < kSquare; ++x) {
                 if (square.flat) {
-                    to[x] += per * static_cast<float>(*square.flat);
+                    to[x] += kPerStep * static_cast<float>(*square.flat);
                 } else {
                     const Shift shift = shifts.at(at.x0 + x);
-                    to[x] += per * blurred.sampled(at.x0 + x, y, shift.x, shift.y);
+                    to[x] += kPerStep * blurred.sampled(at.x0 + x, y, shift.x, shift.y);
                 }
             }
         }
@@ -95,65 +92,47 @@ void addBytes(const Tile& bytes, float factor, const TilePart& part, Plane& plan
     });
 }
 
-/// One tile in the making, or one pixel standing for all of it.
-class LevelMixer {
-public:
-    explicit LevelMixer(const Lighting& light) : light_(light) {
-        const double weakest = *std::ranges::min_element(light.weights);
-        slack_ = static_cast<float>(0.51 / (255.0 * std::max(weakest, 1e-3)));
-        fullBase_ = 255.0F * static_cast<float>(light.weights[static_cast<std::size_t>(light.base)]);
-    }
-    /// The base level's image where layers give `seen`. What is missing by rounding alone stays missing: sharp light at
-    /// one step of 255 would show on all blur.
-    float base(float seen) const {
-        const float missing = 1.0F - seen;
-        return missing > slack_ ? fullBase_ * missing : 0.0F;
-    }
-    /// Blurs of different width overlap by more than all light here and there; all of them give way alike.
-    bool tooMuch(float seen) const { return seen > 1.0F + 2.0F * slack_; }
+/// Half a step of rounding, and a little.
+constexpr float kSlack = 0.51F / 255.0F;
 
-    std::uint8_t weight(std::size_t level, std::uint8_t image) const {
-        const auto weight = static_cast<float>(light_.weights[level]);
-        return static_cast<std::uint8_t>(std::min(255.0F, static_cast<float>(image) / weight + 0.5F));
-    }
+/// The base level's image where layers give `seen`. What is missing by rounding alone stays missing: sharp light at one
+/// step of 255 would show on all blur.
+float baseOf(float seen) {
+    const float missing = 1.0F - seen;
+    return missing > kSlack ? 255.0F * missing : 0.0F;
+}
 
-private:
-    const Lighting& light_;
-    float slack_ = 0.0F, fullBase_ = 0.0F;
-};
+/// Blurs of different width overlap by more than all light here and there; all of them give way alike.
+bool tooMuch(float seen) { return seen > 1.0F + 2.0F * kSlack; }
 
 std::uint8_t toByte(float v) { return static_cast<std::uint8_t>(static_cast<int>(std::min(255.0F, v + 0.5F))); }
 
 /// The tile when every layer is even over it and around.
-LevelTiles evenTiles(const Lighting& light, const LayerGrids& layers, const TilePart& part,
-                     const std::vector<std::optional<float>>& even) {
-    const LevelMixer mixer(light);
-    std::vector<float> images(light.weights.size(), 0.0F);
+std::vector<Box<Tile>> evenTiles(const Lighting& light, const LayerGrids& layers, const TilePart& part,
+                                 const std::vector<std::optional<float>>& even) {
+    std::vector<float> images(static_cast<std::size_t>(light.levels), 0.0F);
     float seen = 0.0F;
     for (std::size_t i = 0; i < even.size(); ++i) {
         seen += *even[i];
         images[static_cast<std::size_t>(light.layers[i].level)] +=
             static_cast<float>(layers.lit[i].tile(part.column, part.row)->v[0]);
     }
-    if (mixer.tooMuch(seen)) {
+    if (tooMuch(seen)) {
         for (float& image : images)
             image /= seen;
     } else {
-        images[static_cast<std::size_t>(light.base)] = mixer.base(seen);
+        images[static_cast<std::size_t>(light.base)] = baseOf(seen);
     }
-    LevelTiles tiles;
-    for (std::size_t l = 0; l < images.size(); ++l) {
-        const std::uint8_t image = toByte(images[l]);
-        tiles.images.push_back(uniformTile(image));
-        tiles.weights.push_back(uniformTile(mixer.weight(l, image)));
-    }
+    std::vector<Box<Tile>> tiles;
+    for (const float image : images)
+        tiles.push_back(uniformTile(toByte(image)));
     return tiles;
 }
 
 }  // namespace
 
-LevelTiles levelTiles(const Lighting& light, const LayerGrids& layers, const TilePart& part,
-                      const std::vector<TileGrid>& imagesBefore) {
+std::vector<Box<Tile>> levelTiles(const Lighting& light, const LayerGrids& layers, const TilePart& part,
+                                  const std::vector<TileGrid>& imagesBefore) {
     std::vector<std::optional<float>> even;
     bool allEven = true;
     for (std::size_t i = 0; i < light.layers.size(); ++i) {
@@ -180,7 +159,7 @@ LevelTiles levelTiles(const Lighting& light, const LayerGrids& layers, const Til
         } else {
             const bool none = light.blending == Blending::none;
             addBytes(*(none ? layers.lit : layers.seen)[l].tile(part.column, part.row),
-                     none ? perStep(light, layer) : static_cast<float>(layer.share) / 255.0F, part, seen);
+                     none ? kPerStep : static_cast<float>(layer.share) / 255.0F, part, seen);
         }
     }
     // Beside a depth step light counts where it is lit, neither moved nor blurred.
@@ -189,21 +168,20 @@ LevelTiles levelTiles(const Lighting& light, const LayerGrids& layers, const Til
         Plane lit;
         fillWith(0.0F, part, lit);
         for (std::size_t l = 0; l < light.layers.size(); ++l)
-            addBytes(*layers.lit[l].tile(part.column, part.row), perStep(light, light.layers[l]), part, lit);
+            addBytes(*layers.lit[l].tile(part.column, part.row), kPerStep, part, lit);
         forEachRow(part, [&](std::size_t from, int n) {
             for (std::size_t i = from; i < from + static_cast<std::size_t>(n); ++i)
                 seen[i] = hard->v[i] != 0 ? lit[i] : seen[i];
         });
     }
 
-    const LevelMixer mixer(light);
     bool anyTooMuch = false;
     forEachRow(part, [&](std::size_t from, int n) {
         const float most = *std::max_element(&seen[from], &seen[from] + n);
-        anyTooMuch = anyTooMuch || mixer.tooMuch(most);
+        anyTooMuch = anyTooMuch || tooMuch(most);
     });
-    LevelTiles tiles;
-    for (std::size_t level = 0; level < light.weights.size(); ++level) {
+    std::vector<Box<Tile>> tiles;
+    for (std::size_t level = 0; level < static_cast<std::size_t>(light.levels); ++level) {
         Plane image;
         fillWith(0.0F, part, image);
         for (std::size_t l = 0; l < light.layers.size(); ++l) {
@@ -214,31 +192,20 @@ LevelTiles levelTiles(const Lighting& light, const LayerGrids& layers, const Til
         const bool isBase = static_cast<int>(level) == light.base;
         Tile tile = *imagesBefore[level].tile(part.column, part.row);
         forEachRow(part, [&](std::size_t from, int n) {
-            const LevelMixer mix = mixer;
             float* v = &image[from];
             const float* s = &seen[from];
             std::uint8_t* to = &tile.v[from];
             if (isBase) {
                 for (int x = 0; x < n; ++x)
-                    v[x] = mix.base(s[x]);
+                    v[x] = baseOf(s[x]);
             } else if (anyTooMuch) {
                 for (int x = 0; x < n; ++x)
-                    v[x] = mix.tooMuch(s[x]) ? v[x] / s[x] : v[x];
+                    v[x] = tooMuch(s[x]) ? v[x] / s[x] : v[x];
             }
             for (int x = 0; x < n; ++x)
                 to[x] = toByte(v[x]);
         });
-        tiles.images.push_back(boxed(tile));
-        if (light.weights[level] == 1.0) {
-            tiles.weights.push_back(tiles.images.back());
-            continue;
-        }
-        std::array<std::uint8_t, 256> weightOf;
-        for (std::size_t v = 0; v < weightOf.size(); ++v)
-            weightOf[v] = mixer.weight(level, static_cast<std::uint8_t>(v));
-        for (std::uint8_t& v : tile.v)
-            v = weightOf[v];
-        tiles.weights.push_back(boxed(tile));
+        tiles.push_back(boxed(tile));
     }
     return tiles;
 }

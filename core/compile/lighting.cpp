@@ -171,12 +171,12 @@ Lighting lighting(const Document& document, const Plan& plan) {
     light.columns = (light.projector.width + kTile - 1) / kTile;
     light.rows = (light.projector.height + kTile - 1) / kTile;
     light.blending = document.seam.blending;
+    light.levels = static_cast<int>(plan.levels.size());
     light.base = baseLevel(plan);
     std::vector<double> given;  // light of a level over the sweep: what "evenly in all lit slots" shares out
     double allGiven = 0.0;
     for (const Level& level : plan.levels) {
-        light.weights.push_back(level.weight);
-        given.push_back(static_cast<double>(level.slots.size()));
+        given.push_back(level.exposure);
         allGiven += given.back();
     }
 

@@ -50,8 +50,8 @@ struct Lighting {
     Size projector;
     int columns = 0, rows = 0;  ///< tiles of the raster
     Blending blending = Blending::closedForm;
-    std::vector<double> weights;  ///< of each level, 0..1 of full light
-    int base = 0;                 ///< the level the eye looks through at rest: it gives whatever light layers do not
+    int levels = 0;
+    int base = 0;  ///< the level the eye looks through at rest: it gives whatever light layers do not
     std::vector<Sheet> sheets;
     std::vector<int> sheetOf;  ///< for each active region, topmost first, then the background
     std::vector<Layer> layers;

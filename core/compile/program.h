@@ -17,8 +17,9 @@ struct Program {
     Hertz slotRate = 960.0_Hz;
     Second projectorDelay;  ///< the core triggers each slot this much before its light is due
     Size projector;
-    std::vector<LightImage> images;  ///< each the projector's size
-    std::vector<int> imageOfSlot;    ///< one entry per slot of the sweep: index into images, or kDark
+    /// Each the projector's size. First the plan's levels, each alone at full light; then what slots show besides.
+    std::vector<LightImage> images;
+    std::vector<int> imageOfSlot;  ///< one entry per slot of the sweep: index into images, or kDark
     bool operator==(const Program&) const = default;
 
     static constexpr int kDark = -1;

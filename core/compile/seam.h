@@ -29,13 +29,8 @@ struct TilePart {
 /// Works out a part of a tile; `before` holds the rest.
 LayerTiles layerTiles(const Visible& visible, const TilePart& part, const LayerGrids& before);
 
-/// One tile of the image and of the weight of every level, from the layers around it.
-struct LevelTiles {
-    std::vector<Box<Tile>> images;   ///< per level, 255 = full light
-    std::vector<Box<Tile>> weights;  ///< per level, 255 = all light of a region
-};
-/// The images as they were before.
-LevelTiles levelTiles(const Lighting& light, const LayerGrids& layers, const TilePart& part,
-                      const std::vector<TileGrid>& imagesBefore);
+/// One tile of the image of every level, 255 = full light, from the layers around it. The images as they were before.
+std::vector<Box<Tile>> levelTiles(const Lighting& light, const LayerGrids& layers, const TilePart& part,
+                                  const std::vector<TileGrid>& imagesBefore);
 
 }  // namespace ilf

@@ -200,6 +200,13 @@ Result<void> checked(const Rig& rig) {
             inRange("the projector's delay", rig.projectorDelay.in(1.0_ms), 0.0, 100.0, "ms"),
             inRange("the lowest lens power", rig.lensMin.si(), -50.0, 50.0, "D"),
             inRange("the highest lens power", rig.lensMax.si(), -50.0, 50.0, "D"),
+            inRange("the bits of a slot's picture", rig.bits, 1, 8, ""),
+            inRange("the projector's fastest slot rate", rig.fastest.si(), 1.0, 1e6, "Hz"),
+            inRange("the power error a slot may have", rig.powerBudget.si(), 0.001, 5.0, "D"),
+            inRange("the share of its power that blur may be wrong by", rig.blurShare, 0.0, 1.0, ""),
+            inRange("the projector's light", rig.room.projector_lm, 0.1, 1e6, "lm"),
+            inRange("the lit area", rig.room.litArea_m2, 1e-4, 1e4, "m\u00b2"),
+            inRange("the ambient light", rig.room.ambient_lx, 0.0, 1e5, "lx"),
         });
         !ok) {
         return ok;

@@ -88,7 +88,7 @@ void forEachSeenTile(const Document& document, const Region& region, Visit&& vis
     }
 }
 
-struct Extremes {
+struct VergenceSpan {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
     void take(double v) {
@@ -100,9 +100,9 @@ struct Extremes {
 
 /// Least and greatest vergence over the centres of the pixels seen. An affine function is extreme at the ends of each
 /// row, and over a whole rectangle at its corners.
-Extremes vergencesSeen(const Document& document, const Region& region, const AffineVergence& vergence) {
-    Extremes extremes;
-    const auto take = [&](int x, int y) { extremes.take(vergence(x + 0.5, y + 0.5)); };
+VergenceSpan vergencesSeen(const Document& document, const Region& region, const AffineVergence& vergence) {
+    VergenceSpan span;
+    const auto take = [&](int x, int y) { span.take(vergence(x + 0.5, y + 0.5)); };
     forEachSeenTile(document, region, [&](const SeenTile& seen) {
         const auto& r = seen.pixels;
         for (int y = r.y0; y < r.y1; ++y) {
@@ -118,7 +118,7 @@ Extremes vergencesSeen(const Document& document, const Region& region, const Aff
             take(last, y);
         }
     });
-    return extremes;
+    return span;
 }
 
 int wholeTiles(const Region& region, Size picture) {
@@ -182,8 +182,8 @@ Result<std::optional<AffineVergence>> affineVergence(const Region& region) {
                                            "\" are on one line: drag one of them aside.");
     }
     Document alone;  // the region by itself, nothing above it
-    const Extremes extremes = vergencesSeen(alone, region, *vergence);
-    if (extremes.any() && extremes.low < 1.0 / kFarthestDistance.si()) {
+    const VergenceSpan span = vergencesSeen(alone, region, *vergence);
+    if (span.any() && span.low < 1.0 / kFarthestDistance.si()) {
         return fail(Fault::outOfRange, "The plane of \"" + region.name +
                                            "\" reaches infinity inside the region: bring the distances of its points "
                                            "closer together, or erase what lies beyond its horizon.");
@@ -216,9 +216,9 @@ std::optional<DistanceRange> distanceRange(const Document& document, const Regio
     if (const auto* plane = std::get_if<PlaneDistance>(&region.distance)) {
         const std::optional<AffineVergence> vergence = through(*plane);
         if (!vergence) return std::nullopt;
-        const Extremes extremes = vergencesSeen(document, region, *vergence);
-        if (!extremes.any()) return std::nullopt;
-        return DistanceRange{metresAt(extremes.high), metresAt(extremes.low), 0.0};
+        const VergenceSpan span = vergencesSeen(document, region, *vergence);
+        if (!span.any()) return std::nullopt;
+        return DistanceRange{metresAt(span.high), metresAt(span.low), 0.0};
     }
     return depthSeen(document, region, std::get<FromDepthMap>(region.distance).tolerance);
 }

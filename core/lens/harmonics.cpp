@@ -67,13 +67,16 @@ Harmonics Harmonics::delayed(double delay) const {
 }
 
 double Harmonics::meanOver(double start, double length) const {
+    return averaged(*this, length).at(start + 0.5 * length);
+}
+
+Harmonics averaged(Harmonics f, double length) {
     assert(length > 0.0);
-    double value = mean();
-    for (std::size_t k = 1; k < c.size(); ++k) {
+    for (std::size_t k = 1; k < f.c.size(); ++k) {
         const double half = std::numbers::pi * static_cast<double>(k) * length;
-        value += (c[k] * turn((start + 0.5 * length) * static_cast<double>(k))).real() * std::sin(half) / half;
+        f.c[k] *= std::sin(half) / half;
     }
-    return value;
+    return f;
 }
 
 bool isFinite(const Harmonics& f) {

@@ -26,6 +26,8 @@ struct Harmonics {
 };
 
 bool isFinite(const Harmonics& f);
+/// Running mean: g(x) is the mean of f from x - length / 2 to x + length / 2.
+Harmonics averaged(Harmonics f, double length);
 /// f^2, with twice as many harmonics. Its `meanOver` gives mean squares over slots in closed form.
 Harmonics squared(const Harmonics& f);
 /// f - constant.

@@ -33,7 +33,7 @@ std::vector<Light> hardLights(const LitRegions& regions, const Plan& plan, Pixel
     const auto total = static_cast<double>(plan.slots.size());
     double litSlots = 0.0;
     for (const Level& level : plan.levels)
-        litSlots += static_cast<double>(level.slots.size());
+        litSlots += level.exposure;
     const double even = plan.light * total / litSlots;
     std::vector<Light> lights;
     for (std::size_t l = 0; l < plan.levels.size(); ++l) {
@@ -42,11 +42,11 @@ std::vector<Light> hardLights(const LitRegions& regions, const Plan& plan, Pixel
         for (int y = window.y0; y < window.y1; ++y) {
             for (int x = window.x0; x < window.x1; ++x) {
                 const auto own = regions.all()[regions.owner(x, y)].level;
-                const double share = !own ? even : *own == static_cast<int>(l) ? level.weight : 0.0;
+                const double share = !own ? even : *own == static_cast<int>(l) ? 1.0 : 0.0;
                 light.push_back(static_cast<float>(share));
             }
         }
-        const double weight = static_cast<double>(level.slots.size()) / total / plan.light;
+        const double weight = level.exposure / total / plan.light;
         lights.push_back({Image<float>({window.width(), window.height()}, 1, std::move(light)), level.power, weight});
     }
     return lights;

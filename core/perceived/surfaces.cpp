@@ -146,31 +146,27 @@ std::vector<Surface> surfaces(const std::vector<SceneLayer>& layers, PixelRect<V
 
 std::vector<Light> lights(const Document& document, const Plan& plan, const Program& program, const ViewScale& scale,
                           PixelRect<ViewFrame> window) {
+    // The levels' own images tell all: a slot that shows part of a level's light, or two levels, is a sum of them.
+    std::vector<double> slots(plan.levels.size(), 0.0);
+    for (const Slot& slot : plan.slots) {
+        for (const LevelLight& lit : slot.lit)
+            slots[static_cast<std::size_t>(lit.level)] += lit.weight;
+    }
     struct Shown {
-        int image;
+        std::size_t image;
         Dioptre power;
-        int slots;
+        double slots;
     };
     std::vector<Shown> shown;
-    for (std::size_t i = 0; i < program.imageOfSlot.size() && i < plan.slots.size(); ++i) {
-        const int image = program.imageOfSlot[i];
-        if (image == Program::kDark || program.images[static_cast<std::size_t>(image)].blank()) continue;
-        const Slot& slot = plan.slots[i];
-        const Dioptre power = slot.level ? plan.levels[static_cast<std::size_t>(*slot.level)].power : slot.power;
-        const auto same =
-            std::ranges::find_if(shown, [&](const Shown& s) { return s.image == image && s.power == power; });
-        if (same == shown.end()) {
-            shown.push_back({image, power, 1});
-        } else {
-            ++same->slots;
-        }
+    for (std::size_t l = 0; l < plan.levels.size() && l < program.images.size(); ++l) {
+        if (slots[l] > 0.0 && !program.images[l].blank()) shown.push_back({l, plan.levels[l].power, slots[l]});
     }
 
     const auto toProjector = projectorFromCamera(document);
     const Size size{window.width(), window.height()};
     std::vector<Light> result;
     for (const Shown& one : shown) {
-        const Raster raster(program.images[static_cast<std::size_t>(one.image)]);
+        const Raster raster(program.images[one.image]);
         std::vector<float> light(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
         parallelFor(size.height, [&](int y) {
             float* out = light.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width);
@@ -179,7 +175,7 @@ std::vector<Light> lights(const Document& document, const Plan& plan, const Prog
                 out[x] = raster.at(at.x, at.y);
             }
         });
-        const double share = static_cast<double>(one.slots) / static_cast<double>(program.imageOfSlot.size());
+        const double share = one.slots / static_cast<double>(plan.slots.size());
         result.push_back({Image<float>(size, 1, std::move(light)), one.power, share / plan.light});
     }
     return result;

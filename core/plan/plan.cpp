@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/plan/schedule.h"
+#include "core/plan/sweep.h"
 #include "core/plan/verdicts.h"
 #include "core/plan/words.h"
 
@@ -18,12 +18,12 @@ struct Draft {
     std::vector<LevelWish> wishes;
     std::vector<std::size_t> ofRegion;
 
-    /// The level of a blurred region that asks for `power`. A level up to the error budget above it serves as well:
-    /// levels closer than that would only take each other's slots, and more power than asked still blurs.
-    std::size_t blurLevel(Dioptre power, Dioptre pMin) {
+    /// The level of a blurred region that asks for `power`. A level up to the error budget `merging` above it serves as
+    /// well: slots could hardly tell them apart, and more power than asked still blurs.
+    std::size_t blurLevel(Dioptre power, Dioptre pMin, Dioptre merging) {
         for (std::size_t l = 0; l < wishes.size(); ++l) {
             const Dioptre above = wishes[l].power - power;
-            const Dioptre reach = wishes[l].kind == LevelKind::blur ? kFocusErrorBudget : kSamePower;
+            const Dioptre reach = wishes[l].kind == LevelKind::blur ? merging : kSamePower;
             if (above < -kSamePower || above > reach) continue;
             if (wishes[l].kind == LevelKind::blur) wishes[l].above = std::max(wishes[l].above.value_or(pMin), pMin);
             return l;
@@ -41,6 +41,16 @@ struct Draft {
             if (best == except || abs(wishes[l].power - power) < abs(wishes[best].power - power)) best = l;
         }
         return best;
+    }
+    /// Ascending, each once.
+    std::vector<Dioptre> powers() const {
+        std::vector<Dioptre> powers;
+        for (const LevelWish& wish : wishes)
+            powers.push_back(wish.power);
+        std::ranges::sort(powers);
+        const auto same = std::ranges::unique(powers, [](Dioptre a, Dioptre b) { return b - a <= kSamePower; });
+        powers.erase(same.begin(), same.end());
+        return powers;
     }
     void remove(std::size_t level, std::size_t replacement) {
         for (std::size_t& l : ofRegion) {
@@ -75,7 +85,7 @@ Draft drafted(const PlanInput& input, const Plan& plan, const FocusVerdict& focu
     const auto wanted = [&](std::size_t i) { return blurs[i].power.value_or(high); };
     std::ranges::stable_sort(order, std::greater{}, wanted);
     for (const std::size_t i : order)
-        draft.ofRegion[i] = draft.blurLevel(wanted(i), *plan.regions[i].pMin);
+        draft.ofRegion[i] = draft.blurLevel(wanted(i), *plan.regions[i].pMin, input.rig.powerBudget);
 
     for (std::size_t i = 0; i < input.objects.size(); ++i) {
         if (input.objects[i].look != Look::blur || blurs[i].needsSweep) continue;
@@ -85,7 +95,7 @@ Draft drafted(const PlanInput& input, const Plan& plan, const FocusVerdict& focu
     return draft;
 }
 
-/// Writes down that the sine passes a level too fast.
+/// Writes down that the wave passes a level too fast.
 void explainTooFast(const Draft& draft, std::size_t level, std::size_t replacement, Plan& plan) {
     const std::string at = inWords(draft.wishes[level].power), instead = inWords(draft.wishes[replacement].power);
     for (std::size_t i = 0; i < plan.regions.size(); ++i) {
@@ -96,13 +106,16 @@ void explainTooFast(const Draft& draft, std::size_t level, std::size_t replaceme
                              ", in the middle of the sweep, where the lens "
                              "is too fast for one slot: it is lit at " +
                              instead + " and not sharp.";
-            region.help = "Put it nearer to the other focused objects, or use a projector with shorter slots.";
+            region.help = "Put it nearer to the other focused objects, use a projector with shorter slots, or a shaped "
+                          "wave that holds this level.";
         } else {
             region.problem = quoted(region.name) + " needs light at " + at +
                              ", in the middle of the sweep, where the lens "
                              "is too fast for one slot: it is lit at " +
                              instead + " and blurred more than asked.";
-            region.help = "Leave its strength empty, or raise it so that it is lit at the end of the sweep.";
+            region.help =
+                "Leave its strength empty, raise it so that it is lit at the end of the sweep, or use a shaped "
+                "wave that holds this level.";
         }
     }
 }
@@ -113,21 +126,24 @@ tl::unexpected<Error> tooFast(const Draft& draft, std::size_t level, const Plan&
     const std::string what = named ? quoted(plan.regions[static_cast<std::size_t>(lit - draft.ofRegion.begin())].name) +
                                          " is in focus for the camera at "
                                    : std::string("The plan needs light at ");
-    return fail(Fault::unsafe, what + inWords(draft.wishes[level].power) + ", where a sine of " +
+    const WaveMode mode = plan.waveform.mode;
+    const std::string wave = mode == WaveMode::idealSine ? "sine" : std::string(word(mode)) + " wave";
+    return fail(Fault::unsafe, what + inWords(draft.wishes[level].power) + ", where a " + wave + " of " +
                                    inWords(plan.waveform.low) + " to " + inWords(plan.waveform.high) + " at " +
-                                   inWords(plan.waveform.rate.si(), 0) +
-                                   " Hz does not stay within the error budget for even "
-                                   "one slot. Bring the distances closer together, or use a rig with shorter slots.");
+                                   inWords(plan.waveform.rate.si(), 0) + " Hz does not stay within the error budget, " +
+                                   inWords(plan.input.rig.powerBudget) +
+                                   ", for even one slot. Bring the distances closer together, allow more error, or use "
+                                   "a rig with shorter slots or a shaped wave.");
 }
 
-/// Gives every level slots. Levels in the middle of the sweep that the sine cannot hold are given up in words; a
+/// Gives every level slots. Levels in the middle of the sweep that the wave cannot hold are given up in words; a
 /// camera's levels and the two ends of the sweep are what the plan is for, so without them there is no plan.
-Result<Schedule> fitted(Draft& draft, Plan& plan) {
+Result<void> fitted(Draft& draft, SweepPlanner& sweep, Plan& plan) {
     for (;;) {
-        Schedule schedule = scheduled(plan.waveform, plan.input.rig, draft.wishes);
+        const Schedule& schedule = sweep.schedule(draft.wishes);
         const auto empty =
             std::ranges::find_if(schedule.levels, [](const Level& level) { return level.slots.empty(); });
-        if (empty == schedule.levels.end() || plan.waveform.still()) return schedule;
+        if (empty == schedule.levels.end() || plan.waveform.still()) return {};
         const auto level = static_cast<std::size_t>(empty - schedule.levels.begin());
         const bool focus = draft.wishes[level].kind == LevelKind::focus;
         const std::size_t replacement =
@@ -197,9 +213,76 @@ void describeRegions(Plan& plan, const Draft& draft) {
     }
 }
 
+/// What is asked of the lens: from the lowest focus level (the lens need not pass its rest power on the way) to P_s +
+/// alpha, or farther where a strength or a focus level asks for it.
+Dioptre highOf(const Plan& plan, const FocusVerdict& focus, const std::vector<BlurWish>& blurs) {
+    Dioptre high = focus.powers.back();
+    if (plan.pS) high = std::max(high, *plan.pS + plan.alpha);
+    for (const BlurWish& wish : blurs)
+        high = std::max(high, wish.power.value_or(high));
+    return high;
+}
+
+/// No wave reaches: says so, and what the largest P_s would be.
+tl::unexpected<Error> outOfReach(const Plan& plan, Dioptre high, const WaveChoice& choice) {
+    std::string why = choice.why;
+    if (plan.pS && choice.reachable < high) {
+        const Dioptre most = choice.reachable - plan.farOffset;
+        why += " The largest P_s this lens reaches is " + inWords(choice.reachable) + ", and " + inWords(*plan.pS) +
+               " is asked for";
+        const auto driver = std::ranges::find(plan.regions, *plan.driver, &RegionPlan::id);
+        if (driver != plan.regions.end() && most > 0.0_D)
+            why += ": move " + quoted(driver->name) + " beyond " + inWordsRoundedUp(1.0 / most);
+        why += ".";
+    }
+    return fail(Fault::unsafe, why);
+}
+
+/// Chooses the wave, for less alpha than asked where the lens does not reach farther.
+Result<Draft> swept(const FocusVerdict& focus, const std::vector<BlurWish>& blurs, SweepPlanner& sweep, Plan& plan) {
+    for (;;) {
+        const Dioptre high = highOf(plan, focus, blurs);
+        Draft draft = drafted(plan.input, plan, focus, blurs, high);
+        const WaveChoice& choice = sweep.wave(focus.powers.front(), high, draft.powers());
+        if (choice.wave) {
+            plan.waveform = *choice.wave;
+            return draft;
+        }
+        // Rounded down, so that the next choice is not refused for the last digit.
+        const Dioptre reach = Dioptre::fromSi(std::floor(choice.reachable.si() * 1e3) * 1e-3);
+        if (!plan.pS || reach <= *plan.pS || reach - *plan.pS >= plan.alpha) return outOfReach(plan, high, choice);
+        const Dioptre asked = plan.alpha;
+        plan.alpha = reach - *plan.pS;
+        plan.warnings.push_back("Alpha is " + inWords(plan.alpha) + " instead of " + inWords(asked) + ": " +
+                                choice.why + " Blur is that much nearer to its border.");
+    }
+}
+
+void warnOfWave(Plan& plan) {
+    const WaveMode asked = plan.input.rig.waves;
+    if (!plan.sweeps() || asked == WaveMode::idealSine) return;
+    if (!plan.input.lens) {
+        plan.warnings.push_back(
+            "The lens has no calibration: the plan is for an ideal sine, which no real lens follows. "
+            "Record its waves, or choose ideal-sine to plan without.");
+    } else if (!plan.unlearnt.empty()) {
+        std::string levels;
+        for (const Dioptre level : plan.unlearnt)
+            levels += (levels.empty() ? "" : ", ") + inWords(level);
+        plan.warnings.push_back("No wave that holds " + levels + " at " + inWords(plan.waveform.rate.si(), 0) +
+                                " Hz has been learnt on this lens: a continuous one is planned until then.");
+    }
+}
+
 }  // namespace
 
-Result<Plan> plan(const PlanInput& input) {
+bool Plan::operator==(const Plan& o) const {
+    return input == o.input && waveform == o.waveform && farOffset == o.farOffset && pS == o.pS && alpha == o.alpha &&
+           driver == o.driver && focusPower == o.focusPower && levels == o.levels && slots == o.slots &&
+           regions == o.regions && warnings == o.warnings && light == o.light && unlearnt == o.unlearnt;
+}
+
+Result<Plan> plan(const PlanInput& input, const Plan* previous) {
     if (const auto good = checkedInput(input); !good) return tl::unexpected(good.error());
     Plan plan;
     plan.input = input;
@@ -225,22 +308,21 @@ Result<Plan> plan(const PlanInput& input) {
     }
     findDriver(plan, blurs);
 
-    // The sweep runs from the lowest focus level (the lens need not pass its rest power on the way) to P_s + alpha, or
-    // farther where a strength or a focus level asks for it.
-    Dioptre high = focus.powers.back();
-    if (plan.pS) high = std::max(high, *plan.pS + plan.alpha);
-    for (const BlurWish& wish : blurs)
-        high = std::max(high, wish.power.value_or(high));
-    plan.waveform = idealSine(restOf(input), focus.powers.front(), high, input.rig.sweepRate, 0.5 / input.rig.slotRate);
+    SweepPlanner sweep(input, restOf(input), previous);
+    auto draft = swept(focus, blurs, sweep, plan);
+    if (!draft) return tl::unexpected(draft.error());
+    if (const auto fits = fitted(*draft, sweep, plan); !fits) return tl::unexpected(fits.error());
+    sortLevels(*draft);
+    const Schedule& schedule = sweep.schedule(draft->wishes);
+    plan.waveform = schedule.waveform;
+    plan.levels = schedule.levels;
+    plan.slots = schedule.slots;
+    plan.light = schedule.light;
+    plan.unlearnt = sweep.unlearnt();
+    plan.work = sweep.work();
+    ++plan.work.plans;
+    plan.parts = sweep.parts();
 
-    Draft draft = drafted(input, plan, focus, blurs, high);
-    auto schedule = fitted(draft, plan);
-    if (!schedule) return tl::unexpected(schedule.error());
-    sortLevels(draft);
-    *schedule = scheduled(plan.waveform, input.rig, draft.wishes);
-    plan.levels = std::move(schedule->levels);
-    plan.slots = std::move(schedule->slots);
-    plan.light = schedule->light;
     plan.focusPower = plan.levels.front().power;
     for (const Level& level : plan.levels) {
         if (level.kind == LevelKind::focus &&
@@ -248,7 +330,8 @@ Result<Plan> plan(const PlanInput& input) {
             plan.focusPower = level.power;
         }
     }
-    describeRegions(plan, draft);
+    describeRegions(plan, *draft);
+    warnOfWave(plan);
     return plan;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "core/plan/plan.h"
 
@@ -40,8 +41,10 @@ void add(PlanInput& input, const Document& document, const Region& region) {
 
 }  // namespace
 
-PlanInput planInput(const Document& document) {
+PlanInput planInput(const Document& document, std::shared_ptr<const LensCalibration> lens) {
     PlanInput input;
+    input.lens = std::move(lens);
+    input.ageYears = document.wearer.ageYears;
     input.eye = eyeOptics(document.wearer);
     input.camera = document.wearer.camera.has_value();
     input.rig = document.rig;

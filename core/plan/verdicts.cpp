@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/plan/projector.h"
 #include "core/plan/words.h"
 
 namespace ilf {
@@ -16,22 +17,27 @@ Result<void> checkedRates(const Rig& rig) {
         return fail(Fault::outOfRange, "Sweep rate and slot rate must be more than 0 Hz.");
     }
     const double ratio = rig.slotRate / rig.sweepRate;
-    const double whole = std::round(ratio);
-    if (std::abs(ratio - whole) > 1e-9 * ratio || whole < 2.0) {
-        const std::string sweep = inWords(rig.sweepRate.si(), 1),
-                          better = inWords(rig.sweepRate.si() * std::max(2.0, whole), 1);
-        return fail(Fault::unsafe,
-                    "The slot rate, " + inWords(rig.slotRate.si(), 1) +
-                        " Hz, is no whole multiple of the sweep rate, " + sweep +
-                        " Hz: the light would flicker more slowly than the sweep (20 Hz for 1000 slots at "
-                        "60 Hz). Use a slot rate of " +
-                        better + " Hz.");
+    const double whole = std::max(2.0, std::min(std::round(ratio), static_cast<double>(mostSlots(rig))));
+    if (std::abs(ratio - std::round(ratio)) > 1e-9 * ratio || ratio < 1.5) {
+        const Beat beat = slowestBeat(rig.slotRate, rig.sweepRate);
+        const std::string flicker = beat.modulation > 0.0
+                                        ? "the light would flicker at " + inWords(beat.frequency.si(), 1) + " Hz by " +
+                                              inWords(100.0 * beat.modulation, 1) +
+                                              " %, and no component below the "
+                                              "sweep may exceed 0.5 %"
+                                        : "a sweep needs two slots at least";
+        return fail(Fault::unsafe, "The slot rate, " + inWords(rig.slotRate.si(), 1) +
+                                       " Hz, is no whole multiple of the sweep rate, " +
+                                       inWords(rig.sweepRate.si(), 1) + " Hz: " + flicker + ". Use a slot rate of " +
+                                       inWords(rig.sweepRate.si() * whole, 1) +
+                                       " Hz, or for a projector of fixed rate a sweep of " +
+                                       inWords(rig.slotRate.si() / whole, 1) + " Hz.");
     }
     if (whole > kMostSlots) {
         return fail(Fault::outOfRange,
                     "One sweep may have at most 4096 slots. Lower the slot rate or raise the sweep rate.");
     }
-    return {};
+    return checkedProjector(rig);
 }
 
 std::string lensReach(const Rig& rig) {
@@ -96,6 +102,9 @@ Result<void> checkedInput(const PlanInput& input) {
         !isFinite(eye.lensToPupil) || !isFinite(eye.accommodation) || !isFinite(eye.ametropia)) {
         return fail(Fault::outOfRange, "Pupil, eye power, circle of confusion, distance from lens to pupil and "
                                        "accommodation must be positive numbers. Check the wearer.");
+    }
+    if (!isFinite(input.rig.powerBudget) || input.rig.powerBudget <= 0.0_D || !(input.rig.blurShare >= 0.0)) {
+        return fail(Fault::outOfRange, "The power error that slots may have must be more than 0 D. Check the rig.");
     }
     if (input.rig.lensMin > 0.0_D || input.rig.lensMax < 0.0_D || !isFinite(input.rig.lensMin) ||
         !isFinite(input.rig.lensMax)) {

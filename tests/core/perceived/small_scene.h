@@ -83,12 +83,11 @@ inline Program hardProgram(const Document& document, const Plan& plan) {
     program.waveform = plan.waveform;
     program.slotRate = plan.input.rig.slotRate;
     program.projector = size;
-    std::size_t litSlots = 0;
+    double litSlots = 0.0;
     for (const Level& level : plan.levels)
-        litSlots += level.slots.size();
+        litSlots += level.exposure;
     for (std::size_t l = 0; l < plan.levels.size(); ++l) {
-        const Level& level = plan.levels[l];
-        const double even = plan.light * static_cast<double>(plan.slots.size()) / static_cast<double>(litSlots);
+        const double even = plan.light * static_cast<double>(plan.slots.size()) / litSlots;
         TileGrid image(size);
         for (int row = 0; row < image.rows(); ++row) {
             for (int column = 0; column < image.columns(); ++column) {
@@ -104,7 +103,7 @@ inline Program hardProgram(const Document& document, const Plan& plan) {
                         for (const RegionPlan& planned : plan.regions) {
                             if (planned.id != top->id) continue;
                             const double share = !planned.level                          ? even
-                                                 : *planned.level == static_cast<int>(l) ? level.weight
+                                                 : *planned.level == static_cast<int>(l) ? 1.0
                                                                                          : 0.0;
                             tile.at(x, y) = static_cast<std::uint8_t>(std::lround(255.0 * share));
                         }
@@ -116,7 +115,7 @@ inline Program hardProgram(const Document& document, const Plan& plan) {
         program.images.push_back(std::move(image));
     }
     for (const Slot& slot : plan.slots)
-        program.imageOfSlot.push_back(slot.level.value_or(Program::kDark));
+        program.imageOfSlot.push_back(slot.level().value_or(Program::kDark));
     return program;
 }
 
