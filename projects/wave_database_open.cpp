@@ -227,6 +227,7 @@ private:
 
 /// The drive from a row; x = 0 at sample 0.
 Result<Harmonics> driveOf(const Statement& row, double low, double high) {
+    if (row.nothing(cHarmonics) && low == high) return Harmonics{{low}};
     if (row.nothing(cHarmonics)) {
         return Harmonics{{0.5 * (low + high), std::complex<double>(0.0, -0.5 * (high - low))}};
     }
@@ -260,7 +261,7 @@ Result<LensRecord> Opening::recordOf(const Statement& row) {
     const auto rate = row.number(cRate), driveLow = row.number(cDriveLow), driveHigh = row.number(cDriveHigh),
                temperature = row.number(cTemperature), phase = row.number(cPhase), noise = row.number(cNoise);
     if (!rate || *rate <= 0.0) return bad("its rate is no number of hertz.");
-    if (!driveLow || !driveHigh || !(*driveLow < *driveHigh)) return bad("its drive's extremes are not in order.");
+    if (!driveLow || !driveHigh || !(*driveLow <= *driveHigh)) return bad("its drive's extremes are not in order.");
     if (!temperature) return bad("its lens's temperature is missing.");
     if (!phase) return bad("its phase is no finite number.");
 

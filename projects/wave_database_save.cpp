@@ -58,8 +58,9 @@ bool finite(const std::vector<double>& numbers) {
 
 /// A sine is told by its extremes alone; anything else keeps its harmonics.
 bool plainSine(const Row& row) {
-    return row.family == "sine" && row.drive.c.size() == 2 && row.drive.c[0].imag() == 0.0 &&
-           row.drive.c[1].real() == 0.0 && row.drive.c[1].imag() < 0.0;
+    const auto& c = row.drive.c;
+    if (row.family != "sine" || c.empty() || c.size() > 2 || c[0].imag() != 0.0) return false;
+    return c.size() == 1 || (c[1].real() == 0.0 && c[1].imag() < 0.0);
 }
 
 std::optional<std::string> wrongWith(const Row& row) {
@@ -67,6 +68,7 @@ std::optional<std::string> wrongWith(const Row& row) {
     if (!(row.rate.si() > 0.0) || !isFinite(row.rate)) return "has no rate";
     if (row.power_D.empty()) return "has no samples";
     if (!finite(row.power_D)) return "has a power that is not finite";
+    if (row.drive.c.empty()) return "has no drive";
     if (!finite(row.drive)) return "has a drive that is not finite";
     if (!std::isfinite(row.temperature_C)) return "has no temperature";
     if (!(row.noise_D >= 0.0) || !std::isfinite(row.noise_D)) return "has a noise that is not a number of dioptres";
@@ -180,11 +182,8 @@ private:
             return fail(Fault::outOfRange, name + " " + *wrong + "; it cannot be saved.");
         }
         const bool sine = plainSine(row);
-        const double middle = row.drive.mean(), half = sine ? -row.drive.c[1].imag() : 0.0;
+        const double middle = row.drive.mean(), half = sine && row.drive.c.size() > 1 ? -row.drive.c[1].imag() : 0.0;
         const Extremes drive = sine ? Extremes{middle - half, middle + half} : extremes(row.drive);
-        if (!(drive.low < drive.high)) {
-            return fail(Fault::outOfRange, name + " was recorded with a drive that stands still; only waves are kept.");
-        }
         const auto session = sessionOf(row);
         if (!session) return session;
         const Samples16 samples = packed16(row.power_D);

@@ -8,6 +8,7 @@ namespace ilf::projects {
 inline constexpr std::uint32_t kWaveApplication = 0x494C4657;  ///< "ILFW"
 inline constexpr std::uint32_t kWaveVersion = 1;
 
+/// As in the reference's 1.1, but that a steady drive is kept too: models need the sine of amplitude 0.
 inline constexpr const char* kWaveSchema = R"sql(
 CREATE TABLE device(id INTEGER PRIMARY KEY,
   kind TEXT CHECK(kind IN('etl','amp','driver','projector','emulator')),
@@ -21,7 +22,7 @@ CREATE TABLE wave(id INTEGER PRIMARY KEY, session_id INT NOT NULL REFERENCES ses
   temp_C REAL, periods_avg INT, settle_s REAL, phase0_s REAL NOT NULL DEFAULT 0,
   n INT NOT NULL, scale REAL NOT NULL, offset REAL NOT NULL, data BLOB NOT NULL,
   p_min REAL NOT NULL, p_max REAL NOT NULL, t_pmin_s REAL, t_pmax_s REAL, rms_period_D REAL, thd REAL, sha256 BLOB,
-  CHECK(u_min<u_max), CHECK(p_min<=p_max), UNIQUE(session_id,family,freq_Hz,u_min,u_max,temp_C));
+  CHECK(u_min<=u_max), CHECK(p_min<=p_max), UNIQUE(session_id,family,freq_Hz,u_min,u_max,temp_C));
 CREATE INDEX wave_range ON wave(session_id,freq_Hz,p_min,p_max);
 CREATE TABLE model(id INTEGER PRIMARY KEY, session_id INT REFERENCES session, kind TEXT, freq_Hz REAL, params BLOB,
   rms_fit_D REAL, max_fit_D REAL, valid_u BLOB, valid_T BLOB);

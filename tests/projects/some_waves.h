@@ -20,6 +20,7 @@ inline projects::WaveFile someWaves() {
         record.id = i + 1;
         record.rate = i == 2 ? 90.0_Hz : 60.0_Hz;
         record.drive.c = {0.001 * i, {0.0, -0.01 - 0.002 * i}};
+        if (i == 2) record.drive.c = {0.02};  // steady
         if (i == 3) {
             record.family = "multisine";
             record.drive.c = {0.5, {0.25, -0.125}, {0.0625, 2.0}};

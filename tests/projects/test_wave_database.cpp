@@ -176,7 +176,7 @@ TEST_CASE("wave database: what cannot be saved is refused before the file is tou
     refused("no samples", [](WaveFile& w) { w.records[0].power_D.clear(); });
     refused("no rate", [](WaveFile& w) { w.records[0].rate = Hertz::fromSi(0.0); });
     refused("drive that is not finite", [](WaveFile& w) { w.records[0].drive.c[1] = kInfinity; });
-    refused("stands still", [](WaveFile& w) { w.records[0].drive.c.resize(1); });
+    refused("no drive", [](WaveFile& w) { w.records[0].drive.c.clear(); });
     refused("no temperature", [](WaveFile& w) { w.records[0].temperature_C = std::nan(""); });
     refused("those of another wave", [](WaveFile& w) { w.records[1].id = w.records[0].id; });
     refused("those of another wave", [](WaveFile& w) { w.records.push_back(w.records[0]), w.records.back().id = 0; });
@@ -253,7 +253,7 @@ TEST_CASE("wave database: content that cannot be is refused, naming the wave") {
     refused("UPDATE wave SET drive_unit='mA' WHERE id=2", "counted in \"mA\"");
     refused("UPDATE wave SET drive_unit='A' WHERE id=2", "volts and amperes");
     refused("UPDATE wave SET freq_Hz=0", "rate");
-    refused("UPDATE wave SET u_max=u_min", "not in order");
+    refused("UPDATE wave SET u_max=u_min-1", "not in order");
     refused("UPDATE wave SET u_harm=x'0102' WHERE family='multisine'", "");
     refused("UPDATE session SET p_gain=0", "gain");
     refused("UPDATE wave SET session_id=99", "missing");
