@@ -70,7 +70,7 @@ Minimax problemOf(const PowerModel& model, std::span<const Hold> holds, const Dr
     problem.size.assign(columns, 0.5);
     problem.size[0] = 1.0;
     const double rms = limits.rms / limits.peak;
-    problem.sizeLimit = rms * rms;
+    problem.sizeLimit = rms * rms * (1.0 - 1e-12);  // rounding stays inside
     problem.worth = kDriveWorth_D;
     return problem;
 }
@@ -100,8 +100,10 @@ std::vector<Hold> holdsFor(std::span<const double> levels_D, double duty, double
         if (!last) holds.push_back({lowAt - end - 0.5 * length, length, levels_D[i]});
         end += length;
     }
-    for (Hold& hold : holds)
+    for (Hold& hold : holds) {
         hold.centre -= std::floor(hold.centre);
+        if (hold.centre == 1.0) hold.centre = 0.0;  // a hair below 0 rounds up
+    }
     std::ranges::sort(holds, {}, &Hold::centre);
     return holds;
 }

@@ -45,6 +45,7 @@ Harmonics within(const Harmonics& f, const DriveLimits& limits, double part) {
 
 struct Seen {
     Harmonics drive, power;
+    double noise_D = 0.0;
 };
 
 /// Best linear response: gains in least squares over all records.
@@ -89,7 +90,7 @@ Result<Identification> identifiedFor(const RecordLens& record, Hertz rate, std::
         const auto got = recordedPower(record, drive, rate, harmonics, limits);
         if (!got) return tl::unexpected(got.error());
         response.unit = got->unit;
-        seen.push_back({drive, got->power});
+        seen.push_back({drive, got->power, got->noise_D});
         return {};
     };
 
@@ -104,7 +105,8 @@ Result<Identification> identifiedFor(const RecordLens& record, Hertz rate, std::
     response.gain[0] = (seen[1].power.mean() - seen[0].power.mean()) / strength;
     response.bias_D = seen[0].power.mean();
     fitGains(response, seen);
-    if (!(std::abs(response.gain[0]) > 0.0) || !(std::abs(response.gain[1]) > 0.0))
+    const double moved = lessConstant(seen[0].power, seen[0].power.mean()).rms();
+    if (!(std::abs(response.gain[0]) > 0.0) || moved <= 4.0 * seen[0].noise_D)
         return fail(Fault::device, "The lens did not move when it was driven; check its cable and amplifier.");
 
     // The third is the wave these gains ask for: a lens that is not linear is identified where it will be used.

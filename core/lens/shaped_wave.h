@@ -19,7 +19,8 @@ struct LensResponse {
     std::vector<std::complex<double>> gain;
 };
 
-/// Records three multisines about the operating point (mean power `middle`, swing `swing`) and fits `harmonics` gains.
+/// Records three multisines and fits `harmonics` gains: two weak ones, then one about the operating point (mean power
+/// `middle`, swing `swing`) with the spectrum of a wave that holds two levels. Refuses a lens that does not answer.
 Result<LensResponse> identified(const RecordLens& record, Hertz rate, double middle_D, double swing_D, int harmonics,
                                 const DriveLimits& limits);
 
@@ -27,6 +28,7 @@ Result<LensResponse> identified(const RecordLens& record, Hertz rate, double mid
 struct Hold {
     double centre = 0.0, length = 0.0;  ///< in sweeps
     double power_D = 0.0;
+    bool operator==(const Hold&) const = default;
 };
 /// Holds for `levels` ascending, `duty` of the sweep each: up the levels and down again, lowest about `lowAt`. With two
 /// levels the holds lie half a sweep apart; levels between the ends are held twice, half as long.
@@ -59,8 +61,10 @@ struct ShapedWave {
     Provenance provenance = Provenance::simulated;
 };
 
-/// Identifies, designs, then corrects the drive by what each record was wrong by (iterative learning, gain 0.7), at
-/// most `iterations` times; stops when a record is worse than the best before and keeps the best.
+/// Identifies, designs and plays, then corrects the drive towards the design made again about the last record
+/// (iterative learning, gain 0.7), at most `iterations` times; stops when a record is worse than the best before and
+/// keeps the best. At most 4 + `iterations` records. A DAC whose rate is no multiple of `rate` adds ripple that differs
+/// from sweep to sweep; averaged records do not show it and nothing can learn it.
 Result<ShapedWave> learnt(const RecordLens& record, Hertz rate, std::span<const Hold> holds, int harmonics,
                           const DriveLimits& limits, int iterations = 4);
 
