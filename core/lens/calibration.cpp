@@ -40,8 +40,8 @@ WaveChoice neverRecorded(const std::vector<Entry>& entries, const WaveWish& wish
 }
 
 /// What the lens is asked to stay within; empty when it does.
-std::string beyondLimits(const LensCalibration& lens, const Waveform& wave) {
-    const Extremes power = extremes(wave.power), drive = extremes(wave.drive);
+std::string beyondLimits(const LensCalibration& lens, const Waveform& wave, const Extremes& power) {
+    const Extremes drive = extremes(wave.drive);
     const DriveLimits& limits = lens.limits;
     const std::string unit = " " + std::string(word(wave.unit));
     if (power.low < limits.lensMin.si() || power.high > limits.lensMax.si()) {
@@ -80,8 +80,7 @@ Waveform asWished(const WaveWish& wish, WaveMode mode, const Harmonics& power, c
 
 /// The x of a sine's wave that is to fall on `lowAt`. Slots lie on a grid, and the highest power need not lie a whole
 /// number of them behind the lowest: each extreme gets half of what is over.
-double lowSlotIn(const Harmonics& power, const WaveWish& wish) {
-    const Extremes e = extremes(power);
+double lowSlotIn(const Extremes& e, const WaveWish& wish) {
     const double apart = e.atHigh - e.atLow;
     if (!(wish.slotLength > 0.0)) return e.atLow;
     return e.atLow + 0.5 * (apart - wish.slotLength * std::round(apart / wish.slotLength));
@@ -120,7 +119,9 @@ WaveChoice fromTable(const LensCalibration& lens, WaveMode mode, const WaveWish&
     const TableWave& chosen = table->waves[*index];
     const Harmonics power = lessConstant(chosen.power, -shift);
     const SineDrive drive{0.5 * (chosen.driveLow + chosen.driveHigh), 0.5 * (chosen.driveHigh - chosen.driveLow)};
-    WaveChoice choice{asWished(wish, mode, power, sine(drive), lowSlotIn(power, wish)), {}, Dioptre::fromSi(*reach)};
+    const Extremes e{table->low_D[*index] + shift, table->high_D[*index] + shift, table->atLow.centre[*index],
+                     table->atHigh.centre[*index]};
+    WaveChoice choice{asWished(wish, mode, power, sine(drive), lowSlotIn(e, wish)), {}, Dioptre::fromSi(*reach)};
     choice.wave->unit = lens.unit;
     choice.wave->wave = chosen.id;
     choice.wave->provenance = lens.provenance;
@@ -132,18 +133,17 @@ WaveChoice fromModel(const LensCalibration& lens, const WaveWish& wish) {
     if (model == nullptr) return neverRecorded(lens.models, wish, "is no model of the lens");
     const double low = wish.low.si(), high = wish.high.si();
     const double shift = lens.drift_D_per_C * (lens.temperature_C - model->temperature_C);
-    const auto wave = [&](double upTo) -> std::optional<Waveform> {
-        const auto found = inverted(*model, low, upTo, shift, wish.slotLength);
-        if (!found) return std::nullopt;
+    const auto drivenTo = [&](double upTo) { return inverted(*model, low, upTo, shift, wish.slotLength); };
+    const auto wave = [&](const Inverted& found) {
         Waveform made =
-            asWished(wish, WaveMode::continuous, found->power, sine(found->drive), lowSlotIn(found->power, wish));
+            asWished(wish, WaveMode::continuous, found.power, sine(found.drive), lowSlotIn(found.extremes, wish));
         made.unit = model->unit;
         made.provenance = model->provenance;
         return made;
     };
     const auto allowed = [&](double upTo) {
-        const auto made = wave(upTo);
-        return made && beyondLimits(lens, *made).empty();
+        const auto found = drivenTo(upTo);
+        return found && beyondLimits(lens, wave(*found), found->extremes).empty();
     };
 
     const double recorded = largestHigh(*model, low, shift, wish.slotLength);
@@ -158,16 +158,17 @@ WaveChoice fromModel(const LensCalibration& lens, const WaveWish& wish) {
         reach = inside;
     }
 
-    const auto made = wave(high);
+    const auto found = drivenTo(high);
     const std::string help = ": the largest high power is " + shortly(reach) + " D; bring it down";
-    if (!made) {
+    if (!found) {
         return none("The lens was not recorded as far as " + range(wish) + atRate(wish) + help +
                         ", or record waves of a larger drive.",
                     reach);
     }
-    const std::string beyond = beyondLimits(lens, *made);
+    const Waveform made = wave(*found);
+    const std::string beyond = beyondLimits(lens, made, found->extremes);
     if (!beyond.empty()) return none(beyond + help + ".", reach);
-    return {*made, {}, Dioptre::fromSi(std::max(reach, high))};
+    return {made, {}, Dioptre::fromSi(std::max(reach, high))};
 }
 
 /// Whether the wave holds the lens at exactly these levels.
@@ -206,7 +207,7 @@ WaveChoice fromShaped(const LensCalibration& lens, const WaveWish& wish) {
         wave.unit = shaped->unit;
         wave.wave = shaped->id;
         wave.provenance = shaped->provenance;
-        const std::string beyond = beyondLimits(lens, wave);
+        const std::string beyond = beyondLimits(lens, wave, extremes(wave.power));
         if (!beyond.empty()) return none(beyond + ": learn it again with less swing.", wish.high.si());
         return {wave, {}, wish.high};
     }

@@ -295,7 +295,13 @@ std::optional<Inverted> inverted(const ContinuousModel& model, double low, doubl
         if (!at) return std::nullopt;
         const SineDrive drive = model.unscaled(*at);
         if (!within(model, drive)) return std::nullopt;
-        return Inverted{drive, lessConstant(model.power(drive.offset, drive.amplitude), -shift)};
+        const Wave wave = polynomials.at(at->offset, at->amplitude).power;
+        Inverted out{drive, {}, extremes(wave)};
+        out.extremes.low += shift;
+        out.extremes.high += shift;
+        for (std::size_t k = 0; k < kHarmonics; ++k)
+            out.power.c.emplace_back(wave.re[k] + (k == 0 ? shift : 0.0), wave.im[k]);
+        return out;
     };
 
     const auto made = model.map.empty() ? mapped(model) : std::vector<ContinuousModel::Row>{};

@@ -76,7 +76,8 @@ std::vector<SineDrive> drivesToRecord(double driveLow, double driveHigh, std::si
 /// extremes that are `low` and `high`: the sweep goes a little farther, and slots lit there err by a third less.
 struct Inverted {
     SineDrive drive;
-    Harmonics power;  ///< at the model's temperature plus `shift`
+    Harmonics power;    ///< at the model's temperature plus `shift`
+    Extremes extremes;  ///< of `power`
 };
 std::optional<Inverted> inverted(const ContinuousModel& model, double low, double high, double shift,
                                  double slotLength = 0.0);

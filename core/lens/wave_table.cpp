@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <tuple>
 
 #include "core/lens/sine_record.h"
@@ -41,7 +42,6 @@ Result<WaveTable> waveTable(std::span<const LensRecord> records, double drift_D_
     WaveTable table;
     table.rate = records.front().rate;
     table.slotLength = slotLength;
-    table.waves.reserve(records.size());
     std::vector<SineRecord> sines;
     for (const LensRecord& record : records) {
         auto sine = sineRecord(record, table.rate);
@@ -50,19 +50,31 @@ Result<WaveTable> waveTable(std::span<const LensRecord> records, double drift_D_
     }
     const Warmth room = warmth(sines);
     table.temperature_C = room.resting_C;
+    struct Judged {
+        TableWave wave;
+        Extremes extremes;
+    };
+    std::vector<Judged> judged;
+    judged.reserve(sines.size());
     for (std::size_t i = 0; i < sines.size(); ++i) {
         SineRecord& sine = sines[i];
-        const TableWave& wave = table.waves.emplace_back(TableWave{
-            records[i].id, sine.offset - sine.amplitude, sine.offset + sine.amplitude,
-            lessConstant(std::move(sine.power), drift_D_per_C * room.warmerThanThat_C[i]), sine.temperature_C});
-        const Extremes e = extremes(wave.power);
+        Harmonics power = lessConstant(std::move(sine.power), drift_D_per_C * room.warmerThanThat_C[i]);
+        const Extremes e = extremes(power);
+        judged.push_back({{records[i].id, sine.offset - sine.amplitude, sine.offset + sine.amplitude, std::move(power),
+                           sine.temperature_C},
+                          e});
+    }
+    std::ranges::stable_sort(judged, {}, [](const Judged& j) { return j.extremes.high - j.extremes.low; });
+    for (auto& [wave, e] : judged) {
         table.low_D.push_back(e.low);
         table.high_D.push_back(e.high);
         for (auto [slots, centre] : {std::pair(&table.atLow, e.atLow), std::pair(&table.atHigh, e.atHigh)}) {
             const Moments slot = moments(wave.power, centre, slotLength);
+            slots->centre.push_back(centre);
             slots->mean.push_back(slot.mean);
             slots->variance.push_back(slot.variance);
         }
+        table.waves.push_back(std::move(wave));
     }
     return table;
 }
@@ -73,9 +85,8 @@ double slotError(const WaveTable& table, std::size_t index, double low, double h
                squareError({table.atHigh.mean[index], table.atHigh.variance[index]}, shift, high);
     }
     const Harmonics& power = table.waves[index].power;
-    const Extremes e = extremes(power);
-    return squareError(moments(power, e.atLow, slotLength), shift, low) +
-           squareError(moments(power, e.atHigh, slotLength), shift, high);
+    return squareError(moments(power, table.atLow.centre[index], slotLength), shift, low) +
+           squareError(moments(power, table.atHigh.centre[index], slotLength), shift, high);
 }
 
 bool playable(const WaveTable& table, std::size_t index, double shift, const DriveLimits& limits) {
@@ -87,34 +98,31 @@ bool playable(const WaveTable& table, std::size_t index, double shift, const Dri
 
 std::optional<std::size_t> narrowestCovering(const WaveTable& table, double low, double high, double shift,
                                              double slotLength, const DriveLimits* limits) {
-    const auto covers = [&](std::size_t i) {
-        return (table.low_D[i] + shift <= low) & (table.high_D[i] + shift >= high);
+    const auto serves = [&](std::size_t i) {
+        return table.low_D[i] + shift <= low && table.high_D[i] + shift >= high &&
+               (limits == nullptr || playable(table, i, shift, *limits));
     };
-    const auto allowed = [&](std::size_t i) { return limits == nullptr || playable(table, i, shift, *limits); };
     // Ranges are taken without the shift: added to both ends it would change their last bits, and so what rounds alike.
-    double narrowest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < table.waves.size(); ++i) {
-        const double range = table.high_D[i] - table.low_D[i];
-        if (covers(i) && range < narrowest && allowed(i)) narrowest = range;
-    }
-    if (std::isinf(narrowest)) return std::nullopt;
+    const auto range = [&](std::size_t i) { return table.high_D[i] - table.low_D[i]; };
+    const std::size_t count = table.waves.size();
+    // Waves narrower than what is asked for, by more than rounding, are stepped over.
+    const auto indices = std::views::iota(std::size_t{0}, count);
+    const auto narrower = [&](std::size_t w) { return range(w) < high - low - 1e-9; };
+    auto i = static_cast<std::size_t>(std::ranges::partition_point(indices, narrower) - indices.begin());
+    while (i < count && !serves(i))
+        ++i;
+    if (i == count) return std::nullopt;
 
-    // Rounding keeps order, so the least rounded range is the rounded least.
-    const long least = rounded_mD(narrowest);
-    std::optional<std::size_t> best;
+    // Rounding keeps order, so waves with the least rounded range follow at once.
+    const long least = rounded_mD(range(i));
+    std::size_t best = i;
     std::optional<double> bestError;  // judged when a second wave ties
-    const auto error = [&](std::size_t i) { return slotError(table, i, low, high, shift, slotLength); };
-    for (std::size_t i = 0; i < table.waves.size(); ++i) {
-        const double range = table.high_D[i] - table.low_D[i];
-        if (!(range < narrowest + 1.5e-3) || !covers(i) || rounded_mD(range) != least || !allowed(i)) continue;
-        if (!best) {
-            best = i;
-            continue;
-        }
-        if (!bestError) bestError = error(*best);
+    const auto error = [&](std::size_t w) { return slotError(table, w, low, high, shift, slotLength); };
+    for (++i; i < count && rounded_mD(range(i)) == least; ++i) {
+        if (!serves(i)) continue;
+        if (!bestError) bestError = error(best);
         const double its = error(i);
-        if (std::tuple(its, tieBreak(table.waves[i], i)) <
-            std::tuple(*bestError, tieBreak(table.waves[*best], *best))) {
+        if (std::tuple(its, tieBreak(table.waves[i], i)) < std::tuple(*bestError, tieBreak(table.waves[best], best))) {
             best = i;
             bestError = its;
         }

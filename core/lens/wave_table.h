@@ -18,16 +18,17 @@ struct TableWave {
     double temperature_C = 30.0;             ///< of the coil when it was recorded
 };
 
-/// Extremes and slots lie apart from the waves, side by side: a query reads nothing else until a wave is chosen.
+/// Extremes and slots lie apart from the waves, side by side: a query reads nothing else until a wave is chosen. Waves
+/// of narrower range come first, so that the narrowest that covers is the first that does.
 struct WaveTable {
     Hertz rate = 60.0_Hz;
     /// Of the lens at rest while it was recorded. What a wave's own drive warms the coil by is part of its record.
     double temperature_C = 30.0;
     std::vector<TableWave> waves;
     std::vector<double> low_D, high_D;  ///< of each wave
-    /// Mean (D) and variance (D^2) of the power over slots of `slotLength` sweeps centred on the extremes.
+    /// Slots of `slotLength` sweeps centred on the extremes: where (x), and mean (D) and variance (D^2) of the power.
     struct Slots {
-        std::vector<double> mean, variance;
+        std::vector<double> centre, mean, variance;
     } atLow, atHigh;
     double slotLength = 1.0 / 16.0;
 };
