@@ -19,24 +19,54 @@ constexpr double kLowAt = 0.5 / 16.0;
 constexpr Second kQuickSettle = 0.12_s;
 constexpr int kQuickPeriods = 4;
 
-double rmsOf(const LensRecord& record) { return record.drive.rms(); }
-
 /// As far as it was driven.
 DriveLimits recordedLimits(const projects::WaveFile& waves) {
     DriveLimits limits;
-    const auto include = [&](const Harmonics& drive, double rms) {
+    const auto include = [&](const Harmonics& drive) {
         const Extremes ends = extremes(drive);
         limits.peak = std::max({limits.peak, std::abs(ends.low), std::abs(ends.high)});
-        limits.rms = std::max(limits.rms, rms);
+        limits.rms = std::max(limits.rms, drive.rms());
     };
     for (const LensRecord& record : waves.records)
-        include(record.drive, rmsOf(record));
+        include(record.drive);
     for (const ShapedWave& wave : waves.shaped)
-        include(wave.drive, wave.drive.rms());
+        include(wave.drive);
     // What was played may be played again, whatever rounding does to it.
     limits.peak *= 1.0 + 1e-6;
     limits.rms *= 1.0 + 1e-6;
     return limits;
+}
+
+/// A model's error no longer shrinks beyond this many waves, while fitting takes ever longer.
+constexpr std::size_t kModelWaves = 120;
+
+/// Of a large table the waves to fit: those within the lens's powers, each the farthest from all taken before.
+std::vector<LensRecord> forModel(std::span<const LensRecord> records, const DriveLimits& limits) {
+    struct Candidate {
+        const LensRecord* record;
+        double offset, amplitude, away = HUGE_VAL;
+    };
+    std::vector<Candidate> left;
+    for (const LensRecord& record : records) {
+        const auto [low, high] = std::minmax_element(record.power_D.begin(), record.power_D.end());
+        if (*low < limits.lensMin.si() || *high > limits.lensMax.si()) continue;
+        const double amplitude = record.drive.c.size() > 1 ? std::abs(record.drive.c[1]) : 0.0;
+        left.push_back({&record, record.drive.mean(), amplitude});
+    }
+    std::vector<LensRecord> taken;
+    std::size_t next = 0;
+    while (!left.empty() && taken.size() < kModelWaves) {
+        const Candidate now = left[next];
+        taken.push_back(*now.record);
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
+        next = 0;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            Candidate& other = left[i];
+            other.away = std::min(other.away, std::hypot(other.offset - now.offset, other.amplitude - now.amplitude));
+            if (other.away > left[next].away) next = i;
+        }
+    }
+    return taken;
 }
 
 Result<void> addRate(LensCalibration& calibration, std::span<const LensRecord> records) {
@@ -45,7 +75,10 @@ Result<void> addRate(LensCalibration& calibration, std::span<const LensRecord> r
     if (calibration.tables.empty()) calibration.temperature_C = table->temperature_C;
     calibration.tables.push_back(*std::move(table));
     // Too few or too similar waves give no model; the table still serves the modes that need none.
-    if (auto model = fitted(records, calibration.drift_D_per_C)) calibration.models.push_back(*std::move(model));
+    const bool few = records.size() <= kModelWaves;
+    const auto chosen = few ? std::vector<LensRecord>() : forModel(records, calibration.limits);
+    if (auto model = fitted(few ? records : chosen, calibration.drift_D_per_C))
+        calibration.models.push_back(*std::move(model));
     return {};
 }
 
