@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "app/exit_code.h"
+#include "app/headless/lens_command.h"
 #include "app/headless/optics_command.h"
 #include "app/headless/plan_command.h"
 #include "app/headless/render_command.h"
@@ -73,6 +74,83 @@ void addOptics(CLI::App& app, OpticsEvalOptions& eval, OpticsTableOptions& table
     tables->add_flag("--csv", table.csv, "As CSV")->excludes(json);
 }
 
+struct LensOptions {
+    LensRecordOptions record;
+    LensChooseOptions choose;
+    LensShapeOptions shape;
+    std::string file, folder, out;
+    bool json = false;
+};
+
+void addLens(CLI::App& app, LensOptions& options) {
+    auto* lens =
+        app.add_subcommand("lens", "Recorded lens waves: record (simulated), look into, import, choose, shape");
+    lens->require_subcommand(1);
+    const auto rate = [](CLI::App* command, double& rate_Hz) {
+        command->add_option("--rate", rate_Hz, "Sweeps a second")
+            ->check(CLI::Range(1.0, 1000.0))
+            ->capture_default_str();
+    };
+    auto* record = lens->add_subcommand("record", "Records the lens emulator into a wave database");
+    record->add_option("--preset", options.record.preset, "slow, datasheet, lively, clean or dirty")
+        ->capture_default_str();
+    rate(record, options.record.rate_Hz);
+    auto* waves = record->add_option("--waves", options.record.waves, "How many, for a model")
+                      ->check(CLI::Range(9, 10000))
+                      ->capture_default_str();
+    record->add_flag("--paper", options.record.paper, "The paper's 2485, between any two of 71 voltages")
+        ->excludes(waves);
+    record->add_option("--temperature", options.record.temperature_C, "Of the resting lens, in degrees C")
+        ->check(CLI::Range(-20.0, 80.0))
+        ->capture_default_str();
+    record->add_option("--seed", options.record.seed, "Not 0: every parameter varied by up to 20 %");
+    record->add_option("-o,--out", options.record.out, "Database to write (.ilflens)")->required();
+
+    auto* info = lens->add_subcommand("info", "What a wave database holds");
+    info->add_option("FILE", options.file, "Wave database")->required();
+    info->add_flag("--json", options.json, "As JSON");
+    auto* import = lens->add_subcommand("import", "CSV files of waves become a database");
+    import->add_option("FOLDER", options.folder, "Folder of CSV files")->required();
+    import->add_option("-o,--out", options.out, "Database to write (.ilflens)")->required();
+    auto* exported = lens->add_subcommand("export", "A database's waves as CSV files");
+    exported->add_option("FILE", options.file, "Wave database")->required();
+    exported->add_option("-o,--out", options.folder, "New folder")->required();
+
+    auto* choose = lens->add_subcommand("choose", "The wave that serves a sweep, or why there is none");
+    choose->add_option("FILE", options.choose.file, "Wave database")->required();
+    choose->add_option("--low", options.choose.low_D, "Lowest power in dioptres")->required();
+    choose->add_option("--high", options.choose.high_D, "Highest power in dioptres")->required();
+    choose->add_option("--mode", options.choose.mode, "paper, slot-aware, continuous or shaped")
+        ->check(CLI::IsMember({"paper", "slot-aware", "continuous", "shaped"}))
+        ->capture_default_str();
+    rate(choose, options.choose.rate_Hz);
+    choose->add_flag("--json", options.choose.json, "As JSON");
+
+    auto* shape = lens->add_subcommand("shape", "Learns a wave on the lens emulator that holds the lens at its levels");
+    auto* file = shape->add_option("FILE", options.shape.file, "Wave database of an emulated lens");
+    shape->add_option("--preset", options.shape.preset, "An emulated lens instead of FILE")->excludes(file);
+    shape->add_option("--levels", options.shape.levels_D, "In dioptres, such as 0,2.2")->delimiter(',')->required();
+    shape->add_option("--duty", options.shape.duty, "Part of the sweep at each level")
+        ->check(CLI::Range(0.001, 0.999))
+        ->capture_default_str();
+    shape->add_option("--harmonics", options.shape.harmonics, "Of the drive, at most")
+        ->check(CLI::Range(1, 16))
+        ->capture_default_str();
+    rate(shape, options.shape.rate_Hz);
+    shape->add_option("-o,--out", options.shape.out, "Database to write: FILE's waves and the learnt one");
+    shape->add_flag("--json", options.shape.json, "As JSON");
+}
+
+int runLens(const CLI::App& lens, LensOptions& options) {
+    if (lens.got_subcommand("record")) return lensRecordCommand(options.record);
+    if (lens.got_subcommand("info")) return lensInfoCommand(options.file, options.json);
+    if (lens.got_subcommand("import")) return lensImportCommand(options.folder, options.out);
+    if (lens.got_subcommand("export")) return lensExportCommand(options.file, options.folder);
+    if (lens.got_subcommand("choose")) return lensChooseCommand(options.choose);
+    if (options.shape.file.empty() && options.shape.preset.empty()) options.shape.preset = "datasheet";
+    return lensShapeCommand(options.shape);
+}
+
 void addStudio(CLI::App& app, StudioOptions& options) {
     app.add_option("FILE", options.file, "Project, picture or video to open");
     app.add_option("--scale", options.scale, "Size of the window's text and controls (0: the display's own)")
@@ -100,12 +178,14 @@ int main(int argc, char** argv) {
     RunOptions run;
     OpticsEvalOptions opticsEval;
     OpticsTableOptions opticsTable;
+    LensOptions lens;
     std::string validated;
     addStudio(app, studio);
     addPlan(app, plan);
     addRender(app, render);
     addRun(app, run);
     addOptics(app, opticsEval, opticsTable);
+    addLens(app, lens);
     app.add_subcommand("validate", "Opens, plans and compiles a project and says what is wrong with it")
         ->add_option("FILE", validated, "Project, picture or video")
         ->required();
@@ -129,6 +209,7 @@ int main(int argc, char** argv) {
             return app.get_subcommand("optics")->got_subcommand("eval") ? opticsEvalCommand(opticsEval)
                                                                         : opticsTableCommand(opticsTable);
         }
+        if (app.got_subcommand("lens")) return runLens(*app.get_subcommand("lens"), lens);
         if (app.got_subcommand("validate")) return validateCommand(validated);
         return runStudio(studio);
     } catch (const std::exception& e) {  // a library threw where nobody expected it
