@@ -19,6 +19,7 @@ struct StageReport {
     LensMode lens = LensMode::rest;
     Dioptre lensPower, low, high;
     std::string projectorLine, lensLine;  ///< one line each: name and state
+    std::string lensName;                 ///< "simulated lens, preset datasheet"
     bool well = false;                    ///< they answered
     bool simulated = true;
     bool operator==(const StageReport&) const = default;

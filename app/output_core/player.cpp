@@ -152,6 +152,7 @@ void Player::say() {
     status_.high = report.high;
     status_.projectorLine = report.projectorLine;
     status_.lensLine = report.lensLine;
+    status_.lensName = report.lensName;
     status_.projectorWell = status_.lensWell = report.well;
     status_.simulated = report.simulated;
     give();

@@ -70,6 +70,7 @@ Offset<void> encode(FlatBufferBuilder& fb, const Status& m) {
     const auto lens = fb.CreateString(m.lensLine);
     const auto fault = fb.CreateString(m.fault);
     const auto refusal = fb.CreateString(m.lastRefusal);
+    const auto lensName = fb.CreateString(m.lensName);
     wire::StatusBuilder b(fb);
     b.add_light(static_cast<wire::Light>(m.light));
     b.add_hold(m.hold);
@@ -94,6 +95,7 @@ Offset<void> encode(FlatBufferBuilder& fb, const Status& m) {
     b.add_simulated(m.simulated);
     b.add_supervisor_pid(m.supervisorPid);
     b.add_last_refusal(refusal);
+    b.add_lens_name(lensName);
     return b.Finish().Union();
 }
 Offset<void> encode(FlatBufferBuilder& fb, const SetWaveform& m) {
@@ -289,6 +291,7 @@ Result<Body> decode(const wire::Status& m) {
     s.supervisorPid = m.supervisor_pid();
     s.simulated = m.simulated();
     s.lastRefusal = text(m.last_refusal());
+    s.lensName = text(m.lens_name());
     return Body(std::move(s));
 }
 

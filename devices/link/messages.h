@@ -77,6 +77,7 @@ struct Status {
     std::uint64_t faults = 0;  ///< how many there were
     int pid = 0, supervisorPid = 0;
     bool simulated = true;
+    std::string lensName;     ///< "simulated lens, preset datasheet": whose calibration plans need
     std::string lastRefusal;  ///< why the last update was not taken; empty once one is
     bool operator==(const Status&) const = default;
 };

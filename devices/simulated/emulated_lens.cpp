@@ -32,6 +32,10 @@ std::optional<SimulatedLens> simulatedLensFromWord(std::string_view word) {
     return std::nullopt;
 }
 
+std::vector<std::string> coreArguments(SimulatedLens lens) {
+    return {"--simulated-lens", std::string(word(lens))};
+}
+
 EmulatedLens::EmulatedLens(LensPreset preset, std::int64_t now_ns)
     : preset_(preset), lens_(lensParameters(preset), kRoom_C), startedNs_(now_ns), nowNs_(now_ns) {
     lens_.hold({});

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "devices/simulated/lens_emulator.h"
 
@@ -23,6 +24,8 @@ struct SimulatedLens {
 inline constexpr SimulatedLens kUsualLens;
 std::string_view word(SimulatedLens lens);
 std::optional<SimulatedLens> simulatedLensFromWord(std::string_view word);
+/// What a core that simulates this lens is started with.
+std::vector<std::string> coreArguments(SimulatedLens lens);
 
 /// Times are in nanoseconds and never go back. Watched at 32 points a sweep, as a photodiode would: a sweep that is the
 /// same as the one before has settled, whatever the lens; whether it also does what was predicted is another question,

@@ -130,6 +130,7 @@ StageReport SimulatedStage::report() const {
         report.lensLine = "simulated lens: no answer";
         return report;
     }
+    report.lensName = state_->lensName;
     report.light = state_->light;
     report.lens = state_->lens;
     report.lensPower = state_->powerNow;

@@ -63,6 +63,7 @@ Status anyStatus() {
     s.supervisorPid = *rc::gen::arbitrary<int>();
     s.simulated = *rc::gen::arbitrary<bool>();
     s.lastRefusal = anyText();
+    s.lensName = anyText();
     return s;
 }
 

@@ -163,6 +163,7 @@ TEST_CASE("stage: a lens that is not the calibrated one is told of, and the show
     REQUIRE(stage.played(programOn(LensPreset::slow)));
     CHECK(stage.faultWithin(0.5).empty());
     CHECK(stage.state().light == LightMode::slotted);
+    CHECK(stage.report().lensName == "simulated lens, preset lively");
     CHECK(says(stage.report().lensLine, "D from its predicted wave: calibrate again"));
 }
 
