@@ -21,7 +21,7 @@ struct SimulatedLens {
     constexpr SimulatedLens(LensPreset one) : preset(one) {}
     bool operator==(const SimulatedLens&) const = default;
 };
-inline constexpr SimulatedLens kUsualLens;
+inline constexpr SimulatedLens kUsualLens = LensPreset::datasheet;
 std::string_view word(SimulatedLens lens);
 std::optional<SimulatedLens> simulatedLensFromWord(std::string_view word);
 /// What a core that simulates this lens is started with.
