@@ -58,8 +58,9 @@ struct ModelTerm {
 std::vector<ModelTerm> modelTerms(int degree, int k);
 
 /// Needs records of family sine of one rate, about 40; refuses too few for a polynomial of degree 3 with one sentence.
-/// Degree and bend are those with the least error in predicting each record from the others (PRESS). Where the
-/// room grew warmer while recording, powers are levelled by `drift_D_per_C`.
+/// Degree and bend are those with the least error in predicting each record from the others (PRESS). Records
+/// of a lens that stands still are left out, and where there are plenty those beyond -5 and 9 D. Where the room grew
+/// warmer while recording, powers are levelled by `drift_D_per_C`.
 Result<ContinuousModel> fitted(std::span<const LensRecord> records, double drift_D_per_C = 0.033);
 /// The grid of a model's `map`, from everything else in it.
 std::vector<ContinuousModel::Row> mapped(const ContinuousModel& model);

@@ -160,6 +160,23 @@ TEST_CASE("continuous model: records of a lens that stands still tell nothing of
     CHECK(fitted(std::span(records).last(16)).error().fault == Fault::notFound);
 }
 
+TEST_CASE("continuous model: of a whole database the waves that glasses sweep through are fitted") {
+    const SyntheticLens lens;
+    const auto all = allWaves(lens, 31, 0.06, 60.0_Hz);
+    std::vector<LensRecord> near;
+    for (const LensRecord& record : all) {
+        const auto [low, high] = std::ranges::minmax(record.power_D);
+        if (low >= -5.0 && high <= 9.0) near.push_back(record);
+    }
+    REQUIRE(near.size() >= 100);
+    REQUIRE(near.size() < all.size());
+    const auto fromAll = fitted(all), fromNear = fitted(near);
+    REQUIRE(fromAll);
+    REQUIRE(fromNear);
+    CHECK(fromAll->driveHigh == fromNear->driveHigh);
+    CHECK(largestHigh(*fromAll, 0.0, 0.0) == doctest::Approx(largestHigh(*fromNear, 0.0, 0.0)));
+}
+
 TEST_CASE("continuous model: drives to record lie in the range, touch its borders and are all different") {
     law("drives", [] {
         const auto count = static_cast<std::size_t>(*rc::gen::inRange(9, 80));
