@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace ilf {
 namespace {
+
+/// Of the static gain: what a harmonic that the lens hardly passes may still change, since the bend of the static
+/// answer comes before the resonance. Without it a moved mean is blamed on the drive's mean alone, and learning swings.
+constexpr double kCoupled = 0.1;
 
 void addTo(Harmonics& sum, const Harmonics& f, double times) {
     if (sum.c.size() < f.c.size()) sum.c.resize(f.c.size());
@@ -65,9 +70,10 @@ void correct(PowerModel& model, const Harmonics& driveChange, const Harmonics& p
     Harmonics miss = powerChange;
     std::vector<double> weighted(s.size());
     double square = 0.0;
+    const double coupled = kCoupled * model.slopes[0].rms();
     for (std::size_t j = 0; j < s.size(); ++j) {
         addTo(miss, model.slopes[j], -s[j]);
-        const double effect = model.slopes[j].rms();
+        const double effect = std::hypot(model.slopes[j].rms(), coupled);
         weighted[j] = effect * effect * s[j];
         square += weighted[j] * s[j];
     }

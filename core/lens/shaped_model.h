@@ -27,8 +27,8 @@ Harmonics driveOf(std::span<const double> unknowns);
 
 /// Goes through `power` at `drive` from now on; slopes stay.
 void moveTo(PowerModel& model, const Harmonics& drive, const Harmonics& power);
-/// Broyden's correction: the slopes change the least (as powers) that makes the model agree with how the power changed
-/// from one drive to another. Changes near the noise of a record correct little.
+/// Broyden's correction: the slopes change the least (weighed by the power they stand for) that makes the model agree
+/// with how the power changed from one drive to another. Changes near the noise of a record correct little.
 void correct(PowerModel& model, const Harmonics& driveChange, const Harmonics& powerChange, double noise_D);
 
 /// A response, and the last of the records it was found with: the wave it asks for, next to where learning begins.

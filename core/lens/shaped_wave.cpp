@@ -38,7 +38,7 @@ Result<ShapedWave> learnt(const RecordLens& record, Hertz rate, std::span<const 
     if (!design) return tl::unexpected(design.error());
 
     ShapedWave best;
-    Harmonics drive = design->drive, driveBefore, powerBefore;
+    Harmonics drive = design->drive, driveBefore = found->drive, powerBefore = found->power;
     for (int play = 0;; ++play) {
         const auto got = recordedPower(record, drive, rate, harmonics, limits);
         if (!got) return tl::unexpected(got.error());
@@ -56,7 +56,7 @@ Result<ShapedWave> learnt(const RecordLens& record, Hertz rate, std::span<const 
 
         // What the model leaves unexplained, other harmonics included, stays as it is for a small change of drive: the
         // design made again about the record is the best that is left to reach.
-        if (play > 0) correct(model, difference(drive, driveBefore), difference(got->power, powerBefore), got->noise_D);
+        correct(model, difference(drive, driveBefore), difference(got->power, powerBefore), got->noise_D);
         moveTo(model, drive, got->power);
         driveBefore = drive;
         powerBefore = got->power;
