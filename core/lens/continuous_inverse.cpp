@@ -1,180 +1,15 @@
 #include <algorithm>
-#include <array>
-#include <cassert>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <tuple>
 
 #include "core/lens/continuous_model.h"
-#include "core/lens/sine_record.h"
+#include "core/lens/continuous_wave.h"
 
 namespace ilf {
 namespace {
 
-constexpr std::size_t kHarmonics = kRecordHarmonics + 1, kMostTerms = 32, kMostDegree = kLargestModelDegree;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-/// Enough that the lowest sample lies beside the lowest extreme: eight for each period of the highest harmonic.
-constexpr std::size_t kSamples = 128;
 constexpr double kNearEnough_D = 1e-11;
-
-/// One period, real and imaginary parts apart so that loops over them vectorise.
-struct Wave {
-    std::array<double, kHarmonics> re{}, im{};
-
-    double at(double x) const {
-        const double c = std::cos(kTwoPi * x), s = std::sin(kTwoPi * x);
-        double zr = 1.0, zi = 0.0, sum = re[0];
-        for (std::size_t k = 1; k < kHarmonics; ++k) {
-            const double turned = zr * c - zi * s;
-            zi = zr * s + zi * c;
-            zr = turned;
-            sum += re[k] * zr - im[k] * zi;
-        }
-        return sum;
-    }
-};
-
-/// A wave at a drive, and how each harmonic changes with offset and amplitude.
-struct Bent {
-    Wave power, byOffset, byAmplitude;
-};
-
-/// The model's polynomials laid out for speed; drives are in its scaled units.
-class Polynomials {
-public:
-    explicit Polynomials(const ContinuousModel& model) : model_(model) {
-        assert(model.degree <= kLargestModelDegree);
-        for (int kind = 0; kind < 3; ++kind)
-            count_[static_cast<std::size_t>(kind)] = listTerms(model.degree, kind);
-    }
-
-    Bent at(double o, double a) const {
-        std::array<double, kMostDegree + 1> op{1.0}, ap{1.0};
-        for (std::size_t i = 1; i <= kMostDegree; ++i) {
-            op[i] = op[i - 1] * o;
-            ap[i] = ap[i - 1] * a;
-        }
-        Bent wave;
-        for (std::size_t kind = 0; kind < 3; ++kind) {
-            std::array<double, kMostTerms> value, byO, byA;
-            for (std::size_t t = 0; t < count_[kind]; ++t) {
-                const auto i = static_cast<std::size_t>(terms_[kind][t].i),
-                           j = static_cast<std::size_t>(terms_[kind][t].j);
-                value[t] = op[i] * ap[j];
-                byO[t] = i == 0 ? 0.0 : static_cast<double>(i) * op[i - 1] * ap[j];
-                byA[t] = j == 0 ? 0.0 : static_cast<double>(j) * op[i] * ap[j - 1];
-            }
-            for (std::size_t k = kind; k < std::min(kHarmonics, model_.terms.size()); k += kind == 0 ? kHarmonics : 2) {
-                for (std::size_t t = 0; t < count_[kind]; ++t) {
-                    const double re = model_.terms[k][t].real(), im = model_.terms[k][t].imag();
-                    wave.power.re[k] += re * value[t];
-                    wave.power.im[k] += im * value[t];
-                    wave.byOffset.re[k] += re * byO[t];
-                    wave.byOffset.im[k] += im * byO[t];
-                    wave.byAmplitude.re[k] += re * byA[t];
-                    wave.byAmplitude.im[k] += im * byA[t];
-                }
-            }
-        }
-        return wave;
-    }
-
-private:
-    std::size_t listTerms(int degree, int kind) {
-        std::size_t count = 0;
-        for (const ModelTerm& term : modelTerms(degree, kind))
-            terms_[static_cast<std::size_t>(kind)][count++] = term;
-        return count;
-    }
-
-    const ContinuousModel& model_;
-    std::array<std::array<ModelTerm, kMostTerms>, 3> terms_{};
-    std::array<std::size_t, 3> count_{};
-};
-
-struct Turns {
-    std::array<std::array<double, kSamples>, kHarmonics> cosine, sine;
-    Turns() {
-        for (std::size_t k = 0; k < kHarmonics; ++k) {
-            for (std::size_t i = 0; i < kSamples; ++i) {
-                const double x = kTwoPi * static_cast<double>(k * i % kSamples) / double(kSamples);
-                cosine[k][i] = std::cos(x);
-                sine[k][i] = std::sin(x);
-            }
-        }
-    }
-};
-
-/// Newton on the slope, within one sample of `x`.
-double refined(const Wave& wave, double x) {
-    const double from = x - 1.0 / double(kSamples), to = x + 1.0 / double(kSamples);
-    for (int step = 0; step < 6; ++step) {
-        const double c = std::cos(kTwoPi * x), s = std::sin(kTwoPi * x);
-        double zr = 1.0, zi = 0.0, slope = 0.0, curvature = 0.0;
-        for (std::size_t k = 1; k < kHarmonics; ++k) {
-            const double turned = zr * c - zi * s;
-            zi = zr * s + zi * c;
-            zr = turned;
-            const double w = kTwoPi * static_cast<double>(k);
-            slope -= w * (wave.re[k] * zi + wave.im[k] * zr);
-            curvature -= w * w * (wave.re[k] * zr - wave.im[k] * zi);
-        }
-        if (curvature == 0.0) break;
-        const double next = std::clamp(x - slope / curvature, from, to);
-        if (std::abs(next - x) < 1e-13) return next;
-        x = next;
-    }
-    return x;
-}
-
-Extremes extremes(const Wave& wave) {
-    static const Turns turns;
-    std::array<double, kSamples> samples;
-    samples.fill(wave.re[0]);
-    for (std::size_t k = 1; k < kHarmonics; ++k) {
-        for (std::size_t i = 0; i < kSamples; ++i)
-            samples[i] += wave.re[k] * turns.cosine[k][i] - wave.im[k] * turns.sine[k][i];
-    }
-    const auto [low, high] = std::ranges::minmax_element(samples);
-    Extremes e;
-    e.atLow = refined(wave, static_cast<double>(low - samples.begin()) / double(kSamples));
-    e.atHigh = refined(wave, static_cast<double>(high - samples.begin()) / double(kSamples));
-    e.low = wave.at(e.atLow);
-    e.high = wave.at(e.atHigh);
-    return e;
-}
-
-/// What shall be `low` and `high`: the extremes, or the means over slots centred on them.
-class Measure {
-public:
-    explicit Measure(double slotLength) {
-        kept_.fill(1.0);
-        for (std::size_t k = 1; k < kHarmonics && slotLength > 0.0; ++k) {
-            const double half = std::numbers::pi * static_cast<double>(k) * slotLength;
-            kept_[k] = std::sin(half) / half;
-        }
-    }
-    /// The mean over a slot about each x, as a wave.
-    Wave operator()(const Wave& wave) const {
-        Wave out;
-        for (std::size_t k = 0; k < kHarmonics; ++k) {
-            out.re[k] = wave.re[k] * kept_[k];
-            out.im[k] = wave.im[k] * kept_[k];
-        }
-        return out;
-    }
-    /// `e` of `wave`, its extremes replaced by what is measured there.
-    Extremes operator()(const Wave& wave, Extremes e) const {
-        const Wave mean = (*this)(wave);
-        e.low = mean.at(e.atLow);
-        e.high = mean.at(e.atHigh);
-        return e;
-    }
-
-private:
-    std::array<double, kHarmonics> kept_;
-};
 
 /// Inside the border, or outside by less than rounding.
 bool within(const ContinuousModel& model, const SineDrive& drive) {
@@ -205,14 +40,14 @@ std::pair<double, double> offsetsAt(const ContinuousModel& model, double amplitu
 
 /// Newton in two dimensions: by the envelope theorem extremes change as the power does where they lie. Slots centred on
 /// them nearly do, which costs a step or two more.
-std::optional<SineDrive> solved(const Polynomials& polynomials, const Measure& measure, SineDrive drive, double low,
-                                double high) {
+std::optional<SineDrive> solved(const ModelPolynomials& polynomials, const SlotMeasure& measure, SineDrive drive,
+                                double low, double high) {
     for (int step = 0; step < 30; ++step) {
-        const Bent wave = polynomials.at(drive.offset, drive.amplitude);
+        const BentWave wave = polynomials.at(drive);
         const Extremes e = measure(wave.power, extremes(wave.power));
         const double offLow = e.low - low, offHigh = e.high - high;
         if (std::max(std::abs(offLow), std::abs(offHigh)) < kNearEnough_D) return drive;
-        const Wave byOffset = measure(wave.byOffset), byAmplitude = measure(wave.byAmplitude);
+        const ModelWave byOffset = measure(wave.byOffset), byAmplitude = measure(wave.byAmplitude);
         const double lowByO = byOffset.at(e.atLow), lowByA = byAmplitude.at(e.atLow);
         const double highByO = byOffset.at(e.atHigh), highByA = byAmplitude.at(e.atHigh);
         const double det = lowByO * highByA - lowByA * highByO;
@@ -229,9 +64,9 @@ std::optional<SineDrive> solved(const Polynomials& polynomials, const Measure& m
 }
 
 /// The still lens: no amplitude, no extremes to follow.
-std::optional<SineDrive> solvedStill(const Polynomials& polynomials, double offset, double power) {
+std::optional<SineDrive> solvedStill(const ModelPolynomials& polynomials, double offset, double power) {
     for (int step = 0; step < 20; ++step) {
-        const Bent wave = polynomials.at(offset, 0.0);
+        const BentWave wave = polynomials.at({offset, 0.0});
         const double off = wave.power.re[0] - power;
         if (std::abs(off) < kNearEnough_D) return SineDrive{offset, 0.0};
         if (wave.byOffset.re[0] == 0.0) return std::nullopt;
@@ -261,7 +96,7 @@ std::optional<OnRow> onRow(const ContinuousModel::Row& row, double low) {
 
 std::vector<ContinuousModel::Row> mapped(const ContinuousModel& model) {
     constexpr std::size_t kRows = 17, kColumns = 13;
-    const Polynomials polynomials(model);
+    const ModelPolynomials polynomials(model);
     double tallest = 0.0;
     for (const SineDrive& corner : model.border)
         tallest = std::max(tallest, corner.amplitude);
@@ -277,7 +112,7 @@ std::vector<ContinuousModel::Row> mapped(const ContinuousModel& model) {
             const double along = static_cast<double>(c) / double(kColumns - 1);
             const SineDrive at =
                 model.scaled({row.offsetLow + along * (row.offsetHigh - row.offsetLow), row.amplitude});
-            const Extremes e = extremes(polynomials.at(at.offset, at.amplitude).power);
+            const Extremes e = extremes(polynomials.at(at).power);
             row.low_D.push_back(e.low);
             row.high_D.push_back(e.high);
         }
@@ -289,17 +124,17 @@ std::optional<Inverted> inverted(const ContinuousModel& model, double low, doubl
                                  double slotLength) {
     if (!(low <= high)) return std::nullopt;
     const double wantedLow = low - shift, wantedHigh = high - shift;
-    const Polynomials polynomials(model);
-    const Measure measure(slotLength);
+    const ModelPolynomials polynomials(model);
+    const SlotMeasure measure(slotLength);
     const auto checked = [&](const std::optional<SineDrive>& at) -> std::optional<Inverted> {
         if (!at) return std::nullopt;
         const SineDrive drive = model.unscaled(*at);
         if (!within(model, drive)) return std::nullopt;
-        const Wave wave = polynomials.at(at->offset, at->amplitude).power;
+        const ModelWave wave = polynomials.at(*at).power;
         Inverted out{drive, {}, extremes(wave)};
         out.extremes.low += shift;
         out.extremes.high += shift;
-        for (std::size_t k = 0; k < kHarmonics; ++k)
+        for (std::size_t k = 0; k < kModelHarmonics; ++k)
             out.power.c.emplace_back(wave.re[k] + (k == 0 ? shift : 0.0), wave.im[k]);
         return out;
     };
@@ -354,8 +189,8 @@ std::optional<Inverted> inverted(const ContinuousModel& model, double low, doubl
 
 double largestHigh(const ContinuousModel& model, double low, double shift, double slotLength) {
     const double wanted = low - shift;
-    const Polynomials polynomials(model);
-    const Measure measure(slotLength);
+    const ModelPolynomials polynomials(model);
+    const SlotMeasure measure(slotLength);
     const auto made = model.map.empty() ? mapped(model) : std::vector<ContinuousModel::Row>{};
     const auto& map = model.map.empty() ? made : model.map;
     double largest = onRow(map.front(), wanted) ? wanted : -std::numeric_limits<double>::infinity();
@@ -364,7 +199,7 @@ double largestHigh(const ContinuousModel& model, double low, double shift, doubl
         const auto at = [&](double amplitude) {
             const auto [from, to] = offsetsAt(model, amplitude);
             const SineDrive drive = model.scaled({right ? to : from, amplitude});
-            const Wave wave = polynomials.at(drive.offset, drive.amplitude).power;
+            const ModelWave wave = polynomials.at(drive).power;
             return measure(wave, extremes(wave));
         };
         for (std::size_t r = 0; r + 1 < map.size(); ++r) {

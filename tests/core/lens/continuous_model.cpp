@@ -60,6 +60,9 @@ TEST_CASE("continuous model: inverted, the predicted wave has the extremes that 
         const Extremes e = extremes(found->power);
         RC_ASSERT(std::abs(e.low - wanted.low - shift) < 1e-9);
         RC_ASSERT(std::abs(e.high - wanted.high - shift) < 1e-9);
+        RC_ASSERT(std::abs(e.low - found->extremes.low) < 1e-12 && std::abs(e.high - found->extremes.high) < 1e-12);
+        RC_ASSERT(std::abs(e.atLow - found->extremes.atLow) < 1e-6);
+        RC_ASSERT(std::abs(e.atHigh - found->extremes.atHigh) < 1e-6);
         // One drive alone does it on a lens whose answer rises.
         RC_ASSERT(std::abs(found->drive.offset - o) < 1e-7);
         RC_ASSERT(std::abs(found->drive.amplitude - a) < 1e-7);
