@@ -173,7 +173,7 @@ int lensImportCommand(const std::string& folder, const std::string& out) {
                           .and_then([&](projects::WaveFile waves) {
                               waves.software = std::string("illuminatedfocus ") + kVersion;
                               return projects::saveWaves(out, waves).map([&] {
-                                  std::cout << out << ": " << waves.records.size() + waves.shaped.size() << " waves of "
+                                  std::cout << out << ": " << waves.records.size() + waves.shaped.size() << " waves, "
                                             << waves.lens.name() << '\n';
                               });
                           });
@@ -183,8 +183,8 @@ int lensImportCommand(const std::string& folder, const std::string& out) {
 int lensExportCommand(const std::string& file, const std::string& folder) {
     const auto done = projects::openWaves(file).and_then([&](const projects::WaveFile& waves) {
         return projects::exportWaves(folder, waves).map([&] {
-            std::cout << folder << ": " << waves.records.size() + waves.shaped.size() << " waves of "
-                      << waves.lens.name() << '\n';
+            std::cout << folder << ": " << waves.records.size() + waves.shaped.size() << " waves, " << waves.lens.name()
+                      << '\n';
         });
     });
     return ended("lens export", done);
