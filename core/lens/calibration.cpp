@@ -263,6 +263,7 @@ WaveChoice chosenWave(const LensCalibration& lens, WaveMode mode, const WaveWish
         choice.wave->unit = lens.unit;
         choice.wave->provenance = lens.provenance;
     }
+    if (choice.wave) choice.wave->temperature_C = lens.temperature_C;
     return choice;
 }
 

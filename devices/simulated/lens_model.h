@@ -7,8 +7,8 @@
 
 namespace ilf::devices {
 
-/// Time constant of the settling. The data sheet's 25 ms to within 5 % read as first order: 25 ms / ln 20. (The real
-/// lens rings at about 60 Hz; the emulator of the calibration issue does that.)
+/// Time constant of the settling. The data sheet's 25 ms to within 5 % read as first order: 25 ms / ln 20. (A lens
+/// rings at about 60 Hz; the emulator does that, this ideal one does not.)
 inline constexpr Second kLensTimeConstant = 8.3_ms;
 
 /// Each harmonic c_k of the power approaches what was told, from t0 on, times in CLOCK_MONOTONIC nanoseconds:
