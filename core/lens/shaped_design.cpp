@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <numeric>
 
 #include "core/lens/minimax.h"
 #include "core/lens/shaped_model.h"
@@ -78,31 +79,30 @@ Minimax problemOf(const PowerModel& model, std::span<const Hold> holds, const Dr
 }  // namespace
 
 std::vector<Hold> holdsFor(std::span<const double> levels_D, double duty, double lowAt) {
-    std::vector<Hold> holds;
     const std::size_t n = levels_D.size();
-    if (n == 0) return holds;
-    // A step takes the lens longer the higher it is, but not in proportion: about the root of its height.
+    if (n == 0) return {};
+    // Every other level on the way up, the rest on the way down.
+    std::vector<double> order;
+    for (std::size_t i = 0; i < n; i += i == 0 ? 1 : 2)
+        order.push_back(levels_D[i]);
+    for (std::size_t i = n; i-- > 1;) {
+        if (i % 2 == 0) order.push_back(levels_D[i]);
+    }
+    // A step takes the lens longer the higher it is, but not in proportion: with the root of its height the design's
+    // error is within a fifth of what any other power of it gives.
     std::vector<double> gaps;
-    double gapsTotal = 0.0;
-    for (std::size_t i = 0; i + 1 < n; ++i) {
-        gaps.push_back(std::sqrt(std::max(levels_D[i + 1] - levels_D[i], 0.0)));
-        gapsTotal += gaps.back();
-    }
+    for (std::size_t i = 0; i < n; ++i)
+        gaps.push_back(std::sqrt(std::abs(order[(i + 1) % n] - order[i])));
+    const double heights = std::accumulate(gaps.begin(), gaps.end(), 0.0);
     const double room = std::max(1.0 - static_cast<double>(n) * duty, 0.0);
-    holds.push_back({lowAt, duty, levels_D[0]});
-    double end = 0.5 * duty;
-    for (std::size_t i = 1; i < n; ++i) {
-        end += gapsTotal > 0.0 ? 0.5 * room * gaps[i - 1] / gapsTotal : 0.0;
-        const bool last = i + 1 == n;
-        const double length = last ? duty : 0.5 * duty;
-        // Down is up in reverse; the highest level's hold lies half a sweep from the lowest's.
-        holds.push_back({lowAt + end + 0.5 * length, length, levels_D[i]});
-        if (!last) holds.push_back({lowAt - end - 0.5 * length, length, levels_D[i]});
-        end += length;
-    }
-    for (Hold& hold : holds) {
-        hold.centre -= std::floor(hold.centre);
-        if (hold.centre == 1.0) hold.centre = 0.0;  // a hair below 0 rounds up
+
+    std::vector<Hold> holds;
+    double centre = lowAt;
+    for (std::size_t i = 0; i < n; ++i) {
+        double wrapped = centre - std::floor(centre);
+        if (wrapped == 1.0) wrapped = 0.0;  // a hair below 0 rounds up
+        holds.push_back({wrapped, duty, order[i]});
+        centre += duty + (heights > 0.0 ? room * gaps[i] / heights : 0.0);
     }
     std::ranges::sort(holds, {}, &Hold::centre);
     return holds;

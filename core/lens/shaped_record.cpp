@@ -30,7 +30,7 @@ Result<RecordedPower> recordedPower(const RecordLens& record, const Harmonics& d
         return fail(Fault::device,
                     "A record of the lens holds samples that are no numbers; check the photodiode and record again.");
     RecordedPower out;
-    out.power = harmonicsOf(got->power_D, std::min<std::size_t>(16, (samples - 1) / 2));
+    out.power = harmonicsOf(got->power_D, std::min<std::size_t>(std::max(16, harmonics), (samples - 1) / 2));
     const double kept = static_cast<double>(2 * out.power.c.size() - 1) / static_cast<double>(samples);
     out.noise_D = got->noise_D * std::sqrt(kept);
     out.unit = got->unit;

@@ -6,7 +6,7 @@
 namespace ilf {
 
 struct RecordedPower {
-    Harmonics power;  ///< D; 16 harmonics, fewer where the record has too few samples
+    Harmonics power;  ///< D; 16 harmonics or as many as asked for, fewer where the record has too few samples
     DriveUnit unit = DriveUnit::volt;
     double noise_D = 0.0;  ///< standard deviation of `power` at any one time
     double temperature_C = 30.0;

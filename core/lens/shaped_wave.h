@@ -30,8 +30,9 @@ struct Hold {
     double power_D = 0.0;
     bool operator==(const Hold&) const = default;
 };
-/// Holds for `levels` ascending, `duty` of the sweep each: up the levels and down again, lowest about `lowAt`. With two
-/// levels the holds lie half a sweep apart; levels between the ends are held twice, half as long.
+/// Holds for `levels` ascending, `duty` of the sweep for each, the lowest about `lowAt`: every other level on the way
+/// up, the rest on the way down, which takes the fewest and lowest steps. With two levels the holds lie half a sweep
+/// apart.
 std::vector<Hold> holdsFor(std::span<const double> levels_D, double duty, double lowAt);
 /// Refuses none, holds that do not fit in one sweep or overlap, and numbers that are not finite.
 Result<void> checkedHolds(std::span<const Hold> holds);

@@ -51,13 +51,16 @@ TEST_CASE("shaped: twice the light of any sine at the same error") {
     }
 }
 
-TEST_CASE("shaped: a camera's levels are held for 6 % of the sweep each, which no sine does") {
-    LensEmulator lens(lensParameters(LensPreset::datasheet));
+TEST_CASE("shaped: a camera's four levels are held for 12 % of the sweep each, which no sine does") {
     const std::array levels{0.0, 0.77, 2.0, 4.0};
-    const auto holds = holdsFor(levels, 0.06, 0.0);
-    const auto wave = learnt(recorder(lens), 60.0_Hz, holds, 8, lens.limits());
-    REQUIRE_MESSAGE(wave, (wave ? "" : wave.error().what));
-    CHECK(largestErrorIn(holds, averageOf(sweepsOf(lens, wave->drive, 60.0_Hz))) < 0.1);
+    for (const LensPreset preset : kLensPresets) {
+        CAPTURE(word(preset));
+        LensEmulator lens(lensParameters(preset));
+        const auto holds = holdsFor(levels, 0.12, 0.0);
+        const auto wave = learnt(recorder(lens), 60.0_Hz, holds, 5, lens.limits());
+        REQUIRE_MESSAGE(wave, (wave ? "" : wave.error().what));
+        CHECK(largestErrorIn(holds, averageOf(sweepsOf(lens, wave->drive, 60.0_Hz))) < 0.1);
+    }
 }
 
 TEST_CASE("shaped: what no drive can do is refused before it is played for long") {
