@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "app/exit_code.h"
+#include "app/headless/evaluate_command.h"
 #include "app/headless/lens_command.h"
 #include "app/headless/optics_command.h"
 #include "app/headless/plan_command.h"
@@ -55,9 +56,9 @@ void addRun(CLI::App& app, RunOptions& options) {
     run->add_option("--pictures", options.pictures, "Directory for the views and slot images");
 }
 
-void addOptics(CLI::App& app, OpticsEvalOptions& eval, OpticsTableOptions& table) {
-    auto* optics =
-        app.add_subcommand("optics", "The formulas: blur, borders and scale, over a file of cases or as tables");
+void addOptics(CLI::App& app, OpticsEvalOptions& eval, OpticsTableOptions& table, OpticsPlotOptions& plot) {
+    auto* optics = app.add_subcommand(
+        "optics", "The formulas: blur, borders and scale, over a file of cases, as tables or as charts");
     optics->require_subcommand(1);
     auto* cases =
         optics->add_subcommand("eval", "Every value of the cases in a CSV (w,P,e,r,Pe,De,Da,x1), with its status");
@@ -72,6 +73,11 @@ void addOptics(CLI::App& app, OpticsEvalOptions& eval, OpticsTableOptions& table
         ->required();
     auto* json = tables->add_flag("--json", table.json, "As JSON");
     tables->add_flag("--csv", table.csv, "As CSV")->excludes(json);
+    auto* plots = optics->add_subcommand("plot", "A chart of the reference eye, like the paper's figures");
+    plots->add_option("CHART", plot.chart, "far-border, near-border, blur or scale")
+        ->check(CLI::IsMember({"far-border", "near-border", "blur", "scale"}))
+        ->required();
+    plots->add_option("-o,--out", plot.out, "PNG or SVG to write")->required();
 }
 
 struct LensOptions {
@@ -151,6 +157,12 @@ int runLens(const CLI::App& lens, LensOptions& options) {
     return lensShapeCommand(options.shape);
 }
 
+void addEvaluate(CLI::App& app, EvaluateCommandOptions& options) {
+    auto* evaluate = app.add_subcommand("evaluate", "The paper's evaluation on the simulated system, beside the paper");
+    evaluate->add_option("-o,--out", options.folder, "Folder for report.md, report.json, charts and pictures");
+    evaluate->add_flag("--quick", options.quick, "Fewer cases, in seconds");
+}
+
 void addStudio(CLI::App& app, StudioOptions& options) {
     app.add_option("FILE", options.file, "Project, picture or video to open");
     app.add_option("--scale", options.scale, "Size of the window's text and controls (0: the display's own)")
@@ -178,13 +190,16 @@ int main(int argc, char** argv) {
     RunOptions run;
     OpticsEvalOptions opticsEval;
     OpticsTableOptions opticsTable;
+    OpticsPlotOptions opticsPlot;
     LensOptions lens;
+    EvaluateCommandOptions evaluation;
     std::string validated;
     addStudio(app, studio);
     addPlan(app, plan);
     addRender(app, render);
     addRun(app, run);
-    addOptics(app, opticsEval, opticsTable);
+    addOptics(app, opticsEval, opticsTable, opticsPlot);
+    addEvaluate(app, evaluation);
     addLens(app, lens);
     app.add_subcommand("validate", "Opens, plans and compiles a project and says what is wrong with it")
         ->add_option("FILE", validated, "Project, picture or video")
@@ -206,10 +221,12 @@ int main(int argc, char** argv) {
         if (app.got_subcommand("render")) return renderCommand(render);
         if (app.got_subcommand("run")) return runCommand(run);
         if (app.got_subcommand("optics")) {
-            return app.get_subcommand("optics")->got_subcommand("eval") ? opticsEvalCommand(opticsEval)
-                                                                        : opticsTableCommand(opticsTable);
+            const auto* optics = app.get_subcommand("optics");
+            if (optics->got_subcommand("eval")) return opticsEvalCommand(opticsEval);
+            return optics->got_subcommand("table") ? opticsTableCommand(opticsTable) : opticsPlotCommand(opticsPlot);
         }
         if (app.got_subcommand("lens")) return runLens(*app.get_subcommand("lens"), lens);
+        if (app.got_subcommand("evaluate")) return evaluateCommand(evaluation);
         if (app.got_subcommand("validate")) return validateCommand(validated);
         return runStudio(studio);
     } catch (const std::exception& e) {  // a library threw where nobody expected it

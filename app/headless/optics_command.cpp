@@ -12,6 +12,8 @@
 
 #include "app/exit_code.h"
 #include "app/headless/prepare.h"
+#include "app/plots/draw.h"
+#include "app/plots/optics_charts.h"
 #include "core/optics/kernel.h"
 
 namespace ilf::app {
@@ -263,6 +265,17 @@ int opticsTableCommand(const OpticsTableOptions& options) {
                                                                "\". Choose far-border, near-border, blur or scale."});
     }
     print(*found, options);
+    return kDone;
+}
+
+int opticsPlotCommand(const OpticsPlotOptions& options) {
+    const auto chart = opticsChart(options.chart);
+    if (!chart) {
+        return refused("optics plot", {Fault::outOfRange, "There is no chart \"" + options.chart +
+                                                              "\". Choose far-border, near-border, blur or scale."});
+    }
+    if (const auto written = writeChart(options.out, *chart); !written) return refused("optics plot", written.error());
+    std::cout << options.out << ": " << chart->title << '\n';
     return kDone;
 }
 

@@ -1,4 +1,4 @@
-// `optics`: the formulas themselves, over a file of cases or as tables, for checking against other programs.
+// `optics`: the formulas themselves, over a file of cases, as tables or as charts, for checking against other programs.
 #pragma once
 
 #include <string>
@@ -21,5 +21,12 @@ struct OpticsTableOptions {
 };
 /// The tables of the reference eye (60 D, 4 mm pupil, 20 mm from the lens, 1 arcmin, 10 D of accommodation).
 int opticsTableCommand(const OpticsTableOptions& options);
+
+struct OpticsPlotOptions {
+    std::string chart;  ///< far-border, near-border, blur or scale
+    std::string out;    ///< .png or .svg
+};
+/// The same as charts, like the paper's figures.
+int opticsPlotCommand(const OpticsPlotOptions& options);
 
 }  // namespace ilf::app
