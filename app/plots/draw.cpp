@@ -183,15 +183,17 @@ void dots(Pen& pen, const Frame& f, const Curve& curve) {
 bool asLine(const Curve& curve) { return curve.mark == Mark::line || curve.mark == Mark::dashed; }
 
 void curves(Pen& pen, const Frame& f) {
-    cairo_save(pen.cairo());
-    // Room for dots that sit on the edge of the plot.
-    cairo_rectangle(pen.cairo(), f.left - 5.0, f.top - 5.0, f.right - f.left + 10.0, f.bottom - f.top + 10.0);
-    cairo_clip(pen.cairo());
     for (const Curve& curve : f.chart.curves) {
+        // Dots on the edge of the plot are shown whole.
+        const double room = asLine(curve) ? 0.0 : 6.0;
+        cairo_save(pen.cairo());
+        cairo_rectangle(pen.cairo(), f.left - room, f.top - room, f.right - f.left + 2.0 * room,
+                        f.bottom - f.top + 2.0 * room);
+        cairo_clip(pen.cairo());
         pen.colour(colourOf(curve));
         asLine(curve) ? line(pen, f, curve) : dots(pen, f, curve);
+        cairo_restore(pen.cairo());
     }
-    cairo_restore(pen.cairo());
 }
 
 void legend(Pen& pen, const Frame& f) {

@@ -61,7 +61,7 @@ Chart nearBorder() {
     Chart chart{"Blur range: borders of sharp vision",
                 kEye,
                 {"Lens power P_E [D]", 0.0, 5.0},
-                {"Distance from the lens [mm]", 0.0, 2500.0},
+                {"Distance from the lens [mm]", 0.0, 1000.0},
                 {}};
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     const EyeOptics eye = referenceEye();
