@@ -22,6 +22,13 @@ using namespace ilf::app;
 constexpr const char* kFooter = "Exit codes: 0 done, 1 failed, 2 usage, 3 device, 4 unsafe plan.\n"
                                 "All output is simulated: no lens or projector driver is part of this version.";
 
+void addLensChoice(CLI::App& command, LensChoice& choice) {
+    command.add_option("--wave", choice.waves,
+                       "Instead of the rig's: continuous, shaped, slot-aware, paper, ideal-sine");
+    command.add_option("--lens", choice.file, "Calibration of the lens, instead of the rig's");
+    command.add_option("--simulated-lens", choice.simulated, "slow, datasheet, lively, clean, dirty or ideal");
+}
+
 void addPlan(CLI::App& app, PlanOptions& options) {
     auto* plan = app.add_subcommand("plan", "What the lens must do: sweep, levels, slots, and what cannot be blurred");
     plan->add_option("FILE", options.file, "Project, picture or video");
@@ -30,6 +37,7 @@ void addPlan(CLI::App& app, PlanOptions& options) {
     plan->add_option("--alpha", options.alpha_D, "Added to P_s, in dioptres");
     plan->add_option("--coc", options.coc, "Circle of confusion: 1arcmin, dof, landolt, or metres on the retina");
     plan->add_flag("--json", options.json, "As JSON");
+    addLensChoice(*plan, options.lens);
 }
 
 void addRender(CLI::App& app, RenderOptions& options) {
@@ -44,6 +52,7 @@ void addRender(CLI::App& app, RenderOptions& options) {
         ->check(CLI::Range(1, 65536))
         ->capture_default_str();
     render->add_option("-o,--out", options.out, "PNG to write")->required();
+    addLensChoice(*render, options.lens);
 }
 
 void addRun(CLI::App& app, RunOptions& options) {
@@ -54,6 +63,7 @@ void addRun(CLI::App& app, RunOptions& options) {
         ->capture_default_str();
     run->add_option("--report", options.report, "JSON report to write");
     run->add_option("--pictures", options.pictures, "Directory for the views and slot images");
+    addLensChoice(*run, options.lens);
 }
 
 void addOptics(CLI::App& app, OpticsEvalOptions& eval, OpticsTableOptions& table, OpticsPlotOptions& plot) {
@@ -163,13 +173,16 @@ void addEvaluate(CLI::App& app, EvaluateCommandOptions& options) {
     evaluate->add_flag("--quick", options.quick, "Fewer cases, in seconds");
 }
 
-void addStudio(CLI::App& app, StudioOptions& options) {
+void addStudio(CLI::App& app, StudioOptions& options, std::string& lens) {
     app.add_option("FILE", options.file, "Project, picture or video to open");
     app.add_option("--scale", options.scale, "Size of the window's text and controls (0: the display's own)")
         ->check(CLI::Range(0.0, 4.0));
     app.add_option("--size", options.size, "Window size, such as 1600x1000");
     app.add_flag("--reset-layout", options.resetLayout, "Start with the default layout");
     app.add_option("--screenshot", options.screenshot, "Write a PNG of the window once its views are done, then quit");
+    app.add_option("--simulated-lens", lens,
+                   "Of a core that has to be started: slow, datasheet, lively, clean, dirty, ideal")
+        ->check(CLI::IsMember({"slow", "datasheet", "lively", "clean", "dirty", "ideal"}));
     app.add_option("--view", options.view, "Tab to start with: scene, perceived, light or compare")
         ->check(CLI::IsMember({"scene", "perceived", "light", "compare"}));
 }
@@ -194,16 +207,19 @@ int main(int argc, char** argv) {
     LensOptions lens;
     EvaluateCommandOptions evaluation;
     std::string validated;
-    addStudio(app, studio);
+    std::string studioLens;
+    addStudio(app, studio, studioLens);
     addPlan(app, plan);
     addRender(app, render);
     addRun(app, run);
     addOptics(app, opticsEval, opticsTable, opticsPlot);
     addEvaluate(app, evaluation);
     addLens(app, lens);
-    app.add_subcommand("validate", "Opens, plans and compiles a project and says what is wrong with it")
-        ->add_option("FILE", validated, "Project, picture or video")
-        ->required();
+    LensChoice validatedLens;
+    auto* validate =
+        app.add_subcommand("validate", "Opens, plans and compiles a project and says what is wrong with it");
+    validate->add_option("FILE", validated, "Project, picture or video")->required();
+    addLensChoice(*validate, validatedLens);
 
     try {
         app.parse(argc, argv);
@@ -227,7 +243,8 @@ int main(int argc, char** argv) {
         }
         if (app.got_subcommand("lens")) return runLens(*app.get_subcommand("lens"), lens);
         if (app.got_subcommand("evaluate")) return evaluateCommand(evaluation);
-        if (app.got_subcommand("validate")) return validateCommand(validated);
+        if (app.got_subcommand("validate")) return validateCommand(validated, validatedLens);
+        if (!studioLens.empty()) studio.lens = *ilf::devices::simulatedLensFromWord(studioLens);
         return runStudio(studio);
     } catch (const std::exception& e) {  // a library threw where nobody expected it
         std::cerr << "illuminatedfocus: stopped by an unexpected failure: " << e.what() << '\n';

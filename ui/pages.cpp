@@ -13,9 +13,10 @@ struct Tab {
     Page page;
     const char* name;
 };
-constexpr std::array<Tab, 6> tabs{{{Page::selected, "Region###region"},
+constexpr std::array<Tab, 7> tabs{{{Page::selected, "Region###region"},
                                    {Page::wearer, "Wearer###wearer"},
                                    {Page::seam, "Seam###seam"},
+                                   {Page::light, "Light###light"},
                                    {Page::rig, "Rig###rig"},
                                    {Page::scene, "Scene###scene"},
                                    {Page::history, "History###history"}}};
@@ -165,6 +166,9 @@ void pagesPanel(Panel& p) {
         break;
     case Page::seam:
         seamPage(p);
+        break;
+    case Page::light:
+        lightPage(p);
         break;
     case Page::rig:
         rigPage(p);

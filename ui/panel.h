@@ -39,6 +39,7 @@ void selectedPanel(Panel& p);
 void pagesPanel(Panel& p);
 void wearerPage(Panel& p);
 void seamPage(Panel& p);
+void lightPage(Panel& p);
 void rigPage(Panel& p);
 void scenePage(Panel& p);
 void historyPage(Panel& p);

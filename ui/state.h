@@ -18,7 +18,7 @@ namespace ilf::ui {
 
 enum class Tool { move, brush, erase, rectangle, ellipse, polygon, lasso, select, flood };
 enum class ViewMode { scene, perceived, light, compare };
-enum class Page { selected, wearer, seam, rig, scene, history };
+enum class Page { selected, wearer, seam, light, rig, scene, history };
 enum class Hint { brush, distance, take };
 enum class Tone { note, warning, error };
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "core/document/document.h"
 #include "core/perceived/seam_profile.h"
 #include "core/plan/plan.h"
+#include "core/plan/report.h"
 
 namespace ilf::ui {
 
@@ -60,6 +62,7 @@ struct Computed {
     std::string planError;  ///< the sentence, when there is no plan
     const Compiled* compiled = nullptr;
     std::optional<SeamProfile> seam;
+    std::shared_ptr<const PlanReport> report;  ///< none before the first plan
     double plan_ms = 0.0, compile_ms = 0.0, view_ms = 0.0;
     std::string viewRung;  ///< "dragging", "at rest": what quality the perceived view has
     CompileCounters counters;

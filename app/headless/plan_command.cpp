@@ -38,7 +38,23 @@ Result<PlanObject> parsedObject(const std::string& text) {
     return object;
 }
 
-Result<PlanInput> inputOf(const PlanOptions& options) {
+Result<std::vector<PlanObject>> parsedObjects(const std::vector<std::string>& texts) {
+    std::vector<PlanObject> objects;
+    for (const std::string& text : texts) {
+        auto object = parsedObject(text);
+        if (!object) return tl::unexpected(object.error());
+        for (const PlanObject& other : objects) {
+            if (other.id == object->id) {
+                return fail(Fault::outOfRange, "Two objects are called \"" + object->name + "\": rename one.");
+            }
+        }
+        objects.push_back(*std::move(object));
+    }
+    return objects;
+}
+
+/// The project, or an empty one that lends its wearer and rig to the objects.
+Result<Document> documentOf(const PlanOptions& options) {
     Document document;
     if (!options.file.empty()) {
         auto opened = openAny(options.file);
@@ -52,27 +68,21 @@ Result<PlanInput> inputOf(const PlanOptions& options) {
         if (!confusion) return tl::unexpected(confusion.error());
         document.wearer.confusion = *confusion;
     }
-    if (options.alpha_D) {
-        auto changed = edited(std::move(document), SetAlpha{Dioptre::fromSi(*options.alpha_D)});
-        if (!changed) return tl::unexpected(changed.error());
-        document = *std::move(changed);
-    }
-    if (!options.file.empty()) return planInput(document);
+    auto rig = withOptions(document.rig, options.lens);
+    if (!rig) return tl::unexpected(rig.error());
+    document.rig = *std::move(rig);
+    if (options.alpha_D) return edited(std::move(document), SetAlpha{Dioptre::fromSi(*options.alpha_D)});
+    return document;
+}
 
-    PlanInput input;
-    input.eye = eyeOptics(document.wearer);
-    input.rig = document.rig;
-    input.alpha = document.alpha;
-    for (const std::string& text : options.objects) {
-        auto object = parsedObject(text);
-        if (!object) return tl::unexpected(object.error());
-        for (const PlanObject& other : input.objects) {
-            if (other.id == object->id) {
-                return fail(Fault::outOfRange, "Two objects are called \"" + object->name + "\": rename one.");
-            }
-        }
-        input.objects.push_back(*std::move(object));
-    }
+Result<PlanInput> inputOf(const PlanOptions& options, LensPlanner& planner) {
+    const auto document = documentOf(options);
+    if (!document) return tl::unexpected(document.error());
+    if (!options.file.empty()) return planner.input(*document);
+    auto objects = parsedObjects(options.objects);
+    if (!objects) return tl::unexpected(objects.error());
+    auto input = planner.input(*document);
+    if (input) input->objects = *std::move(objects);
     return input;
 }
 
@@ -83,9 +93,12 @@ int planCommand(const PlanOptions& options) {
         return refuse({Fault::outOfRange, "give either a FILE or objects: --object NAME,DISTANCE_M,focus|blur."},
                       kUsage);
     }
-    const auto input = inputOf(options);
+    const auto lens = simulatedLens(options.lens);
+    if (!lens) return refuse(lens.error(), kUsage);
+    LensPlanner planner(*lens);
+    const auto input = inputOf(options, planner);
     if (!input) return refuse(input.error(), options.file.empty() ? kUsage : exitCode(input.error()));
-    const auto planned = plan(*input);
+    const auto planned = planner.plan(*input, nullptr, true);
     if (!planned) return refuse(planned.error(), exitCode(planned.error()));
     std::cout << (options.json ? planJson(*planned) : planText(*planned)) << std::endl;
     return kDone;

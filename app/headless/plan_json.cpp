@@ -1,7 +1,11 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/headless/plan_command.h"
 #include "app/words.h"
+#include "core/plan/report.h"
 
 namespace ilf::app {
 namespace {
@@ -14,6 +18,41 @@ json number(double value) { return std::isfinite(value) ? json(value) : json(); 
 template <class Q>
 json optionalNumber(const std::optional<Q>& value) {
     return value ? number(value->si()) : json();
+}
+
+const std::array<const char*, 3> kTopics{"flicker", "ambient", "privacy"};
+
+/// Cosine and sine parts, from the mean up: f(t) = sum of cosine[k] cos(2 pi k rate t) + sine[k] sin(2 pi k rate t).
+json harmonics(const Harmonics& f) {
+    json cosine = json::array(), sine = json::array();
+    for (const auto& c : f.c) {
+        cosine.push_back(c.real());
+        sine.push_back(-c.imag());
+    }
+    return {{"cosine", cosine}, {"sine", sine}};
+}
+
+json waveform(const Plan& plan) {
+    const Waveform& wave = plan.waveform;
+    const Extremes reach = extremes(wave.power);
+    json out = {{"mode", plan.sweeps() ? std::string(word(wave.mode)) : "still"},
+                {"provenance", word(wave.provenance)},
+                {"lens", plan.input.lens ? json(plan.input.lens->lens) : json()},
+                {"wave_id", wave.wave != 0 ? json(wave.wave) : json()},
+                {"power_D", harmonics(wave.power)},
+                {"predicted_D", {reach.low, reach.high}},
+                {"lens_limits_D", {plan.input.rig.lensMin.si(), plan.input.rig.lensMax.si()}}};
+    if (wave.drive.c.empty()) return out;
+    const Extremes drive = extremes(wave.drive);
+    out["drive"] = harmonics(wave.drive);
+    out["drive_unit"] = word(wave.unit);
+    out["drive_peak"] = std::max(std::abs(drive.low), std::abs(drive.high));
+    out["drive_rms"] = wave.drive.rms();
+    if (plan.input.lens) {
+        out["drive_limits"] = {{"peak", plan.input.lens->limits.peak}, {"rms", plan.input.lens->limits.rms}};
+        out["temperature_C"] = plan.input.lens->temperature_C;
+    }
+    return out;
 }
 
 }  // namespace
@@ -39,12 +78,23 @@ std::string planJson(const Plan& plan) {
     }
     json slots = json::array();
     for (const Slot& slot : plan.slots) {
+        json levels = json::array();
+        for (const LevelLight& light : slot.lit) {
+            levels.push_back(
+                {{"level_D", plan.levels[static_cast<std::size_t>(light.level)].power.si()}, {"weight", light.weight}});
+        }
+        const auto level = slot.level();
         slots.push_back({
             {"index", slot.index},
             {"start_s", slot.start.si()},
             {"duration_s", slot.duration.si()},
-            {"level_D", slot.level ? json(plan.levels[static_cast<std::size_t>(*slot.level)].power.si()) : json()},
+            {"scene_time_s", slot.middle().si()},
+            {"level_D", level ? json(plan.levels[static_cast<std::size_t>(*level)].power.si()) : json()},
+            {"levels", levels},
             {"power_D", number(slot.power.si())},
+            {"power_rms_error_D", level ? json(slot.rmsError.si()) : json()},
+            {"duty", level ? slot.duration * plan.waveform.rate : 0.0},
+            {"luminance", slot.luminance(plan.waveform.rate)},
         });
     }
     json levels = json::array();
@@ -52,9 +102,22 @@ std::string planJson(const Plan& plan) {
         levels.push_back({{"kind", level.kind == LevelKind::focus ? "focus" : "blur"},
                           {"power_D", level.power.si()},
                           {"slots", level.slots},
-                          {"weight", level.weight},
-                          {"power_rms_error_D", level.rmsError.si()}});
+                          {"exposure_slots", level.exposure},
+                          {"power_rms_error_D", level.rmsError.si()},
+                          {"power_rms_budget_D", level.budget.si()}});
     }
+    const PlanReport report = planReport(plan);
+    json curve = json::array();
+    for (const LightPoint& point : report.curve)
+        curve.push_back({{"budget_D", point.budget.si()},
+                         {"light_share", point.light},
+                         {"power_rms_error_D", point.rmsError.si()}});
+    json notes = json::array();
+    for (const PlanNote& note : report.notes)
+        notes.push_back({{"topic", kTopics[static_cast<std::size_t>(note.topic)]},
+                         {"warns", note.warns},
+                         {"text", note.text},
+                         {"model", note.model}});
     json driver;
     if (plan.driver) {
         for (const RegionPlan& region : plan.regions) {
@@ -72,11 +135,15 @@ std::string planJson(const Plan& plan) {
         {"focus_D", plan.focusPower.si()},
         {"light_share", plan.light},
         {"observer", plan.input.camera ? "camera" : "eye"},
-        {"waveform", {{"mode", plan.sweeps() ? "ideal-sine" : "still"}, {"provenance", "simulated"}}},
+        {"waveform", waveform(plan)},
         {"levels", levels},
         {"regions", regions},
         {"slots", slots},
         {"warnings", plan.warnings},
+        {"notes", notes},
+        {"why", report.why},
+        {"what_would_help", report.help},
+        {"light_curve", curve},
     };
     return all.dump(2);
 }

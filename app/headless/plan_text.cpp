@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "app/headless/plan_command.h"
 #include "app/words.h"
+#include "core/plan/report.h"
 
 namespace ilf::app {
 namespace {
@@ -15,10 +17,12 @@ std::string text(const char* format, double value) {
 }  // namespace
 
 std::string planText(const Plan& plan) {
+    const PlanReport report = planReport(plan);
     std::string out;
     if (plan.sweeps()) {
         out += "Sweep " + text("%.3f", plan.waveform.low.si()) + " to " + text("%.3f D", plan.waveform.high.si()) +
-               " at " + text("%.4g Hz", plan.waveform.rate.si()) + " (ideal sine, simulated)";
+               " at " + text("%.4g Hz", plan.waveform.rate.si()) + " (" + std::string(word(plan.waveform.mode)) +
+               " wave, " + std::string(word(plan.waveform.provenance)) + ")";
     } else {
         out += "No sweep: the lens stands still at " + text("%.3f D", plan.waveform.low.si());
     }
@@ -26,7 +30,12 @@ std::string planText(const Plan& plan) {
     for (const RegionPlan& region : plan.regions) {
         if (plan.driver && region.id == *plan.driver) out += ", driven by \"" + region.name + "\"";
     }
-    out += ".\nEvery region gets " + text("%.1f %%", 100.0 * plan.light) + " of steady light.\n";
+    out +=
+        ".\nEvery region gets " + text("%.1f %%", 100.0 * plan.light) + " of steady light; the lens's power is off by ";
+    double error = 0.0;
+    for (const Level& level : plan.levels)
+        error = std::max(error, level.rmsError.si());
+    out += text("%.3f D", error) + " rms at most while it is lit.\n" + report.why + "\n";
     for (const RegionPlan& region : plan.regions) {
         out += "  " + region.name + ": " + word(region.look) + " at " + text("%.3f m", region.nearest.si());
         if (region.pMin) out += ", P_min " + text("%.3f D", region.pMin->si());
@@ -41,6 +50,10 @@ std::string planText(const Plan& plan) {
     }
     for (const std::string& warning : plan.warnings)
         out += "warning: " + warning + "\n";
+    for (const PlanNote& note : report.notes)
+        out += (note.warns ? "warning: " : "note: ") + note.text + " (" + note.model + ")\n";
+    for (const std::string& help : report.help)
+        out += "would help: " + help + "\n";
     if (!out.empty() && out.back() == '\n') out.pop_back();
     return out;
 }

@@ -24,14 +24,14 @@ private:
 
 }  // namespace
 
-Result<Prepared> prepared(const std::string& file) {
+Result<Prepared> prepared(const std::string& file, const LensChoice& lens) {
     Prepared result;
     Stopwatch watch;
     auto opened = openAny(file);
     if (!opened) return tl::unexpected(opened.error());
     result.opened = *std::move(opened);
     result.open_ms = watch.lap();
-    const auto planned = plan(planInput(result.opened.document));
+    const auto planned = plannedFor(result.opened.document, lens);
     if (!planned) return tl::unexpected(planned.error());
     result.plan_ms = watch.lap();
     auto compiled = compile(result.opened.document, *planned);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "app/lens/lens_choice.h"
 #include "app/open.h"
 #include "core/compile/compile.h"
 
@@ -14,7 +15,7 @@ struct Prepared {
     double open_ms = 0.0, plan_ms = 0.0, compile_ms = 0.0;
 };
 
-Result<Prepared> prepared(const std::string& file);
+Result<Prepared> prepared(const std::string& file, const LensChoice& lens = {});
 
 /// Writes "illuminatedfocus COMMAND: sentence" to standard error and gives the exit code.
 int refused(const char* command, const Error& error);

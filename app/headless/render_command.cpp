@@ -54,7 +54,7 @@ int renderCommand(const RenderOptions& options) {
         std::cerr << "illuminatedfocus render: \"" << options.view << "\" is no view: use " << kViews << ".\n";
         return kUsage;
     }
-    const auto project = prepared(options.file);
+    const auto project = prepared(options.file, options.lens);
     if (!project) return refused("render", project.error());
     const auto picture = pictureOf(project->compiled, options);
     if (!picture) {

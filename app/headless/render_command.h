@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "app/lens/lens_choice.h"
+
 namespace ilf::app {
 
 struct RenderOptions {
@@ -11,6 +13,7 @@ struct RenderOptions {
     std::string eye = "left";
     bool reference = false;  ///< perceived by brute force
     int samples = 256;       ///< points of the pupil a pixel, for the reference
+    LensChoice lens;
     std::string out;
 };
 

@@ -1,6 +1,7 @@
 #include "app/headless/run_command.h"
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -106,7 +107,10 @@ json reportOf(const Prepared& project, const RunOptions& options, const Played& 
           {"refusals", played.state.refusals},
           {"lens_low_D", played.state.waveform.low.si()},
           {"lens_high_D", played.state.waveform.high.si()},
-          {"lens_error_D", played.state.lensError.si()},
+          {"lens_unsettled_D", played.state.lensError.si()},
+          {"lens_off_its_wave_rms_D", played.state.offWave.si()},
+          {"lens_temperature_C", played.state.lensTemperature_C},
+          {"triggers_lost", played.state.triggersLost},
           {"rate_changes_under_slotted_light", played.state.rateChangesUnderSlottedLight}}},
     };
 }
@@ -114,11 +118,11 @@ json reportOf(const Prepared& project, const RunOptions& options, const Played& 
 }  // namespace
 
 int runCommand(const RunOptions& options) {
-    const auto project = prepared(options.file);
+    const auto project = prepared(options.file, options.lens);
     if (!project) return refused("run", project.error());
     const Program& program = project->compiled.program;
 
-    auto core = SimulatedCore::start(options.coreProgram);
+    auto core = SimulatedCore::start(options.coreProgram, *simulatedLens(options.lens));
     if (!core) return refused("run", core.error());
     const auto played = (*core)->play(program, std::chrono::duration<double>(options.seconds));
     if (!played) return refused("run", played.error());
@@ -147,7 +151,8 @@ int runCommand(const RunOptions& options) {
     }
     std::cout << planText(project->compiled.plan) << '\n'
               << "Played " << played->sweeps << " sweeps on the simulated devices; first light "
-              << played->sentToSwapped_ms << " ms after it was sent.\n";
+              << played->sentToSwapped_ms << " ms after it was sent; the lens was "
+              << std::lround(played->state.offWave.si() * 1e3) << " mD rms off its predicted wave.\n";
     if (played->state.hashShown != contentHash(program)) {
         return refused("run",
                        {Fault::device, "The devices show another program than the one that was sent; nothing "

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "app/lens/lens_choice.h"
+
 namespace ilf::app {
 
 struct RunOptions {
@@ -10,6 +12,7 @@ struct RunOptions {
     double seconds = 2.0;
     std::string report;    ///< JSON; empty: none
     std::string pictures;  ///< a directory; empty: none
+    LensChoice lens;
     std::string coreProgram;
 };
 

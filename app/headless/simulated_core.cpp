@@ -17,14 +17,15 @@ constexpr std::chrono::seconds kPatience{15};
 
 }  // namespace
 
-Result<std::unique_ptr<SimulatedCore>> SimulatedCore::start(const std::string& coreProgram) {
+Result<std::unique_ptr<SimulatedCore>> SimulatedCore::start(const std::string& coreProgram,
+                                                            devices::SimulatedLens lens) {
     std::string name = (std::filesystem::temp_directory_path() / "ilf-run-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) {
         return fail(Fault::cannotWrite, "No temporary directory can be made for the simulated core: check " +
                                             std::filesystem::temp_directory_path().string() + ".");
     }
     auto core = std::unique_ptr<SimulatedCore>(new SimulatedCore(coreProgram, name));
-    if (const auto started = devices::ensureCoreRunning(coreProgram, name); !started)
+    if (const auto started = devices::ensureCoreRunning(coreProgram, name, devices::coreArguments(lens)); !started)
         return tl::unexpected(started.error());
     return core;
 }

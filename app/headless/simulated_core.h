@@ -8,6 +8,7 @@
 
 #include "core/compile/program.h"
 #include "devices/simulated/device_client.h"
+#include "devices/simulated/emulated_lens.h"
 
 namespace ilf::app {
 
@@ -22,7 +23,8 @@ struct Played {
 /// (steady light, lens at rest) and removed with the object.
 class SimulatedCore {
 public:
-    static Result<std::unique_ptr<SimulatedCore>> start(const std::string& coreProgram);
+    static Result<std::unique_ptr<SimulatedCore>> start(const std::string& coreProgram,
+                                                        devices::SimulatedLens lens);
     ~SimulatedCore();
     SimulatedCore(const SimulatedCore&) = delete;
     SimulatedCore& operator=(const SimulatedCore&) = delete;

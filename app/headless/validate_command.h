@@ -3,8 +3,10 @@
 
 #include <string>
 
+#include "app/lens/lens_choice.h"
+
 namespace ilf::app {
 
-int validateCommand(const std::string& file);
+int validateCommand(const std::string& file, const LensChoice& lens = {});
 
 }  // namespace ilf::app

@@ -13,8 +13,9 @@ constexpr std::chrono::seconds kGone{2};
 
 }  // namespace
 
-Link::Link(std::string coreProgram, std::filesystem::path runtimeDirectory, std::function<void()> onNews)
-    : coreProgram_(std::move(coreProgram)), runtimeDirectory_(std::move(runtimeDirectory)), onNews_(std::move(onNews)),
+Link::Link(std::string coreProgram, std::vector<std::string> coreArguments, std::filesystem::path runtimeDirectory,
+           std::function<void()> onNews)
+    : coreProgram_(std::move(coreProgram)), coreArguments_(std::move(coreArguments)), runtimeDirectory_(std::move(runtimeDirectory)), onNews_(std::move(onNews)),
       thread_([this](std::stop_token stop) { run(stop); }) {}
 
 void Link::send(Sending sending) {
@@ -40,7 +41,7 @@ void Link::run(std::stop_token stop) {
         last = news;
         onNews_();
     };
-    if (const auto started = devices::ensureCoreRunning(coreProgram_, runtimeDirectory_); !started) {
+    if (const auto started = devices::ensureCoreRunning(coreProgram_, runtimeDirectory_, coreArguments_); !started) {
         publish({{}, started.error().what});
     }
     devices::CoreLink core(runtimeDirectory_);
@@ -67,7 +68,7 @@ void Link::run(std::stop_token stop) {
             heard = Clock::now();
         } else if (Clock::now() - heard > kGone) {
             heard = Clock::now();
-            const auto started = devices::ensureCoreRunning(coreProgram_, runtimeDirectory_);
+            const auto started = devices::ensureCoreRunning(coreProgram_, runtimeDirectory_, coreArguments_);
             if (!started && started.error().what != last.trouble) publish({core.status(), started.error().what});
         }
     }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/studio/worker.h"
 #include "core/base/latest.h"
@@ -33,7 +34,8 @@ struct LinkNews {
 
 class Link {
 public:
-    Link(std::string coreProgram, std::filesystem::path runtimeDirectory, std::function<void()> onNews);
+    Link(std::string coreProgram, std::vector<std::string> coreArguments, std::filesystem::path runtimeDirectory,
+         std::function<void()> onNews);
 
     void send(Sending sending);
     void safeLight();
@@ -43,6 +45,7 @@ private:
     void run(std::stop_token stop);
 
     std::string coreProgram_;
+    std::vector<std::string> coreArguments_;
     std::filesystem::path runtimeDirectory_;
     std::function<void()> onNews_;
     std::mutex mutex_;

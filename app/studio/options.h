@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "devices/simulated/emulated_lens.h"
+
 namespace ilf::app {
 
 struct StudioOptions {
@@ -13,6 +15,7 @@ struct StudioOptions {
     std::string screenshot;
     std::string view;
     std::string coreProgram;
+    devices::SimulatedLens lens = devices::kUsualLens;  ///< of a core that has to be started
 };
 
 /// Opens the window and runs until it is closed; returns the exit code.

@@ -84,8 +84,9 @@ Result<std::unique_ptr<Studio>> Studio::start(const StudioOptions& options) {
 
 Studio::Studio(StudioOptions options, std::unique_ptr<Window> window, OpenedFile opened)
     : options_(std::move(options)), window_(std::move(window)), editor_(opened.document), keeper_(&Window::wake),
-      camera_(&Window::wake), selector_(&Window::wake), changedAt_(Clock::now()), worker_(&Window::wake),
-      link_(options_.coreProgram, devices::runtimeDirectory(), &Window::wake) {
+      camera_(&Window::wake), selector_(&Window::wake), changedAt_(Clock::now()), worker_(options_.lens, &Window::wake),
+      link_(options_.coreProgram, devices::coreArguments(options_.lens), devices::runtimeDirectory(),
+            &Window::wake) {
     if (!options_.resetLayout) ui_ = ui::withLayout(ui_, keeper_.layoutText());
     ui_.mode = startMode(options_.view);
     ui_.recovery = options_.screenshot.empty() ? keeper_.recoveryQuestion() : std::nullopt;
@@ -301,6 +302,7 @@ ui::View Studio::view() const {
     }
     if (done_.refusal) computed.planError = done_.refusal->what;
     computed.seam = done_.seam;
+    computed.report = done_.report;
     computed.plan_ms = done_.plan_ms;
     computed.compile_ms = done_.compile_ms;
     computed.view_ms = done_.view_ms;

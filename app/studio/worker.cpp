@@ -22,8 +22,8 @@ constexpr double kSeamReach = 0.05;
 
 }  // namespace
 
-Worker::Worker(std::function<void()> onDone)
-    : onDone_(std::move(onDone)), thread_([this](std::stop_token s) { run(s); }) {}
+Worker::Worker(devices::SimulatedLens lens, std::function<void()> onDone)
+    : onDone_(std::move(onDone)), planner_(lens), thread_([this](std::stop_token s) { run(s); }) {}
 
 void Worker::run(std::stop_token stop) {
     while (auto job = jobs_.take(stop)) {
@@ -52,8 +52,14 @@ void Worker::work(Job job) {
 
     // Plan: not worked out again when nothing it depends on changed.
     auto start = Clock::now();
-    const PlanInput input = planInput(job.document);
-    Result<Plan> planned = last_ && last_->plan.input == input ? Result<Plan>(last_->plan) : plan(input);
+    // Learning a wave on the lens takes longer than a frame: it waits until the hand is still.
+    const auto input = planner_.input(job.document);
+    Result<Plan> planned = tl::unexpected(input ? Error{} : input.error());
+    if (input) {
+        const bool same = last_ && last_->plan.input == *input && (job.dragging || last_->plan.unlearnt.empty());
+        planned = same ? Result<Plan>(last_->plan)
+                       : planner_.plan(*input, last_ ? &last_->plan : nullptr, !job.dragging);
+    }
     done.plan_ms = millisecondsSince(start);
 
     // Compile, sharing whatever the edit cannot reach.
@@ -72,12 +78,19 @@ void Worker::work(Job job) {
         done.refusal = planned.error();
     }
     done.compile_ms = millisecondsSince(start);
+    done.report = report_;
     publish(done);
     if (!done.compiled) {
         lastViewed_.reset();
         lastDone_ = done;
         return;
     }
+
+    if (!reported_ || *reported_ != done.compiled->plan) {
+        report_ = std::make_shared<const PlanReport>(planReport(done.compiled->plan));
+        reported_ = done.compiled->plan;
+    }
+    done.report = report_;
 
     // Views, unless newer work already waits.
     start = Clock::now();

@@ -10,10 +10,12 @@
 #include <string>
 #include <thread>
 
+#include "app/lens/lens_planner.h"
 #include "core/base/latest.h"
 #include "core/compile/compile.h"
 #include "core/perceived/perceived.h"
 #include "core/perceived/seam_profile.h"
+#include "core/plan/report.h"
 
 namespace ilf::app {
 
@@ -42,6 +44,7 @@ struct Done {
     std::array<ViewPicture, 2> perceived;      ///< empty: not asked for, or still to come
     ViewPicture plain;
     std::optional<SeamProfile> seam;
+    std::shared_ptr<const PlanReport> report;  ///< with the views; before that the one of the plan before
     double plan_ms = 0.0, compile_ms = 0.0, view_ms = 0.0;
     std::string rung;  ///< quality of the views: "dragging", "at rest"
     bool viewsDone = false;
@@ -54,8 +57,8 @@ inline constexpr int kRestWidth = 1024;
 
 class Worker {
 public:
-    /// `onDone` is called on the worker's thread whenever `done` has something new (to wake the window).
-    explicit Worker(std::function<void()> onDone = {});
+    /// `lens` is the simulated one that plans are made for where the rig names no calibration. `onDone` is called on the worker's thread whenever `done` has something new (to wake the window).
+    explicit Worker(devices::SimulatedLens lens, std::function<void()> onDone = {});
 
     void post(Job job) { jobs_.put(std::move(job)); }
     std::optional<Done> tryTake() { return done_.tryTake(); }
@@ -69,9 +72,12 @@ private:
     std::function<void()> onDone_;
 
     // Owned by the worker's thread alone.
+    LensPlanner planner_;
     std::shared_ptr<const Compiled> last_;
     std::optional<Job> lastViewed_;
     Done lastDone_;
+    std::shared_ptr<const PlanReport> report_;
+    std::optional<Plan> reported_;  ///< the plan of report_
 
     std::jthread thread_;  // last: joins before what it uses goes
 };

@@ -57,7 +57,7 @@ void addMovedDriver(const Plan& now, std::vector<std::string>& help) {
     PlanInput moved = now.input;
     const auto object = std::ranges::find(moved.objects, driver->id, &PlanObject::id);
     // To the millimetre, as it is said.
-    const Metre to = Metre::fromSi(std::ceil((1.0 / (next - now.farOffset)).in(1.0_mm)) * 1e-3);
+    const Metre to = Metre::fromSi(std::ceil((1.0 / (next - now.farOffset)).in(1.0_mm) - 1e-6) * 1e-3);
     object->farthest = object->farthest + (to - object->nearest);
     object->nearest = to;
     const auto then = replanned(moved);
@@ -74,6 +74,17 @@ void addMoreError(const Plan& now, std::vector<std::string>& help) {
     if (!worthSaying(now, then)) return;
     help.push_back("Allow an error of " + inWords(looser.rig.powerBudget) + " instead of " +
                    inWords(now.input.rig.powerBudget) + ": " + gain(now, *then) + ".");
+}
+
+/// With little alpha few slots of a sine lie above P_min, whatever error is allowed.
+void addMoreAlpha(const Plan& now, std::vector<std::string>& help) {
+    if (!now.pS) return;
+    PlanInput farther = now.input;
+    farther.alpha = std::max(2.0 * farther.alpha, 0.2_D);
+    const auto then = replanned(farther);
+    if (!worthSaying(now, then) || then->alpha != farther.alpha) return;
+    help.push_back("Raise alpha from " + inWords(now.input.alpha) + " to " + inWords(farther.alpha) + ": " +
+                   gain(now, *then) + ".");
 }
 
 }  // namespace
@@ -99,6 +110,7 @@ std::vector<std::string> whatWouldHelp(const Plan& plan) {
     if (!plan.sweeps()) return help;
     addMovedDriver(plan, help);
     addMoreError(plan, help);
+    addMoreAlpha(plan, help);
     return help;
 }
 

@@ -18,7 +18,7 @@ struct LightPoint {
 std::vector<LightPoint> lightCurve(const Plan& plan, int points = 24);
 
 /// Sentences on what would help, each planned for real and only said where it gains 2 % of light or more: the driving
-/// region moved, more error allowed.
+/// region moved, more error allowed, more alpha.
 std::vector<std::string> whatWouldHelp(const Plan& plan);
 
 /// One sentence: what decides how far the lens sweeps.

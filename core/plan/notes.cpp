@@ -151,7 +151,7 @@ Hertz flickerFusion(double luminance, double modulation, double degrees, double 
     constexpr std::array<Field, 3> kFields{{{10.0, 0.1276, 0.1424}, {30.0, 0.1919, 0.1201}, {50.0, 0.5076, 0.1004}}};
     const Field& field =
         *std::ranges::min_element(kFields, {}, [&](const Field& f) { return std::abs(f.degrees - degrees); });
-    const auto pupil = pupilInLight({luminance, roundField_deg2(field.degrees), 2}, ageYears);
+    const auto pupil = pupilInLight({luminance, roundField_deg2(30.0), 2}, ageYears);
     if (!pupil) return {};
     const double area_mm2 = 0.25 * std::numbers::pi * std::pow(pupil->in(1.0_mm), 2);
     const double trolands = luminance * area_mm2 * modulation;

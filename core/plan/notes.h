@@ -22,7 +22,8 @@ struct PlanNote {
 double modulationAt(const Plan& plan, std::size_t level, int harmonic);
 
 /// Critical flicker fusion frequency of a round field `degrees` across (10, 30 or 50): ln(E / a) / b with E the
-/// modulated retinal illuminance in trolands (Farrell 1987; coefficients from memory), the pupil by Watson and Yellott.
+/// modulated retinal illuminance in trolands (Farrell 1987; coefficients from memory), the pupil by Watson and Yellott
+/// for a lit field of 30 degrees.
 /// `luminance` in cd/m^2, modulation as above.
 Hertz flickerFusion(double luminance, double modulation, double degrees, double ageYears);
 

@@ -259,6 +259,12 @@ Result<Draft> swept(const FocusVerdict& focus, const std::vector<BlurWish>& blur
 }
 
 void warnOfWave(Plan& plan) {
+    for (const Level& level : plan.levels) {
+        if (!plan.sweeps() || level.rmsError <= level.budget * (1.0 + 1e-9)) continue;
+        plan.warnings.push_back("Light for " + inWords(level.power) + " is off by " + inWords(level.rmsError) +
+                                " rms, more than the " + inWords(level.budget) +
+                                " allowed: the recorded wave reaches no nearer. A continuous or shaped wave would.");
+    }
     const WaveMode asked = plan.input.rig.waves;
     if (!plan.sweeps() || asked == WaveMode::idealSine) return;
     if (!plan.input.lens) {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::array<double, 8> kShortest_us{235.0, 700.0, 1570.0, 1700.0, 2000.0, 2500.0, 4500.0, 8333.0};
 constexpr int kPlanesAFrame = 24;
+constexpr double kMostBelowSweep = 0.005;
 /// Rates are typed with a few digits: 8333 us fit twice into 60 Hz.
 constexpr double kSlack = 1.0 + 1e-6;
 
@@ -62,7 +63,6 @@ Beat slowestBeat(Hertz slotRate, Hertz sweepRate) {
     while (sweeps < 1000 && std::abs(ratio * sweeps - std::round(ratio * sweeps)) > 1e-6 * ratio * sweeps)
         ++sweeps;
     const double length = ratio * sweeps;  // in slots
-    Beat beat;
     for (int k = 1; k < sweeps; ++k) {
         std::complex<double> sum = 0.0;
         for (int i = 0; i < sweeps; ++i) {
@@ -70,9 +70,9 @@ Beat slowestBeat(Hertz slotRate, Hertz sweepRate) {
             sum += std::polar(1.0, -2.0 * std::numbers::pi * k * slot / length);
         }
         const double modulation = 2.0 * std::abs(sum) / sweeps;
-        if (modulation > beat.modulation + 1e-9) beat = {(static_cast<double>(k) / sweeps) * sweepRate, modulation};
+        if (modulation > kMostBelowSweep) return {(static_cast<double>(k) / sweeps) * sweepRate, modulation};
     }
-    return beat;
+    return {};
 }
 
 }  // namespace ilf

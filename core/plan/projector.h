@@ -20,7 +20,8 @@ Result<void> checkedProjector(const Rig& rig);
 Rig withProjector(Rig rig, ProjectorKind kind, int bits);
 
 /// What becomes of light in slots that are no whole multiple of the sweep: one slot a sweep, the one nearest its lowest
-/// power, drifts against it and beats. The strongest component below the sweep rate; modulation as a share of the mean.
+/// power, drifts against it and beats. The slowest component of more than 0.5 %; modulation as a share of the mean.
+/// None: 0 Hz.
 struct Beat {
     Hertz frequency;
     double modulation = 0.0;

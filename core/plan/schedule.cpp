@@ -36,6 +36,8 @@ struct Served {
     double exposure = 0.0;   ///< all of them whole but perhaps the last
 };
 
+constexpr double kWorstRecorded_D = 0.5;
+
 class Scheduler {
 public:
     Scheduler(const Waveform& wave, double delay, const Rig& rig, const std::vector<LevelWish>& wishes)
@@ -107,6 +109,12 @@ private:
             if (mayServe(l, slot)) candidates.push_back(slot);
         }
         std::ranges::stable_sort(candidates, {}, [&](int slot) { return squareError(l, slot); });
+        if (takesWhatThereIs() && !candidates.empty()) {
+            const double best = squareError(l, candidates.front());
+            if (best > std::pow(errorBudget(wish, wave_.rest, rig_).si(), 2) &&
+                best < kWorstRecorded_D * kWorstRecorded_D)
+                return {{candidates.front()}, 1.0};
+        }
         const double allowed = std::pow(errorBudget(wish, wave_.rest, rig_).si(), 2);
         double sum = 0.0;
         for (const int slot : candidates) {
@@ -129,6 +137,9 @@ private:
         }
         return result;
     }
+
+    /// A recorded wave is the best there is, however wide: its extremes are what they are.
+    bool takesWhatThereIs() const { return wave_.mode == WaveMode::paper || wave_.mode == WaveMode::slotAware; }
 
     template <class Take>
     void eachSlot(std::size_t level, double exposure, Take take) const {

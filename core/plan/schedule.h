@@ -33,7 +33,8 @@ Dioptre errorBudget(const LevelWish& wish, Dioptre rest, const Rig& rig);
 /// much as the one with least, each in its own best slots: equal luminance, and less error where there was light to
 /// spare. A slot may serve several levels of one kind, never focus and blur together: where their seams meet, the sum
 /// would be more than all light. The wave is moved against the slots by up to half a slot if that gives 2 % more light.
-/// A lens that stands still serves the first level in every slot.
+/// With a recorded wave (paper, slotAware) a level whose best slot is over the budget gets that one all the same, up to
+/// 0.5 D: the plan warns of it. A lens that stands still serves the first level in every slot.
 Schedule scheduled(const Waveform& waveform, const Rig& rig, const std::vector<LevelWish>& wishes);
 
 }  // namespace ilf

@@ -79,7 +79,7 @@ inline double received(const Compiled& compiled, Metre distance, Point<Projector
             const double r = radius * std::sqrt((i + 0.5) / kSamples), a = i * std::numbers::pi * (3 - std::sqrt(5.0));
             light += look(at.x + r * std::cos(a), at.y + r * std::sin(a));
         }
-        sum += light / kSamples / (255.0 * level.weight);
+        sum += light / kSamples / 255.0;
     }
     return sum;
 }

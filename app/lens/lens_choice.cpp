@@ -1,8 +1,8 @@
-#include "app/lens/lens_options.h"
+#include "app/lens/lens_choice.h"
 
 namespace ilf::app {
 
-Result<Rig> withOptions(Rig rig, const LensOptions& options) {
+Result<Rig> withOptions(Rig rig, const LensChoice& options) {
     if (!options.waves.empty()) {
         const auto mode = waveModeFromWord(options.waves);
         if (!mode) {
@@ -16,7 +16,7 @@ Result<Rig> withOptions(Rig rig, const LensOptions& options) {
     return rig;
 }
 
-Result<devices::SimulatedLens> simulatedLens(const LensOptions& options) {
+Result<devices::SimulatedLens> simulatedLens(const LensChoice& options) {
     if (options.simulated.empty()) return devices::kUsualLens;
     if (const auto lens = devices::simulatedLensFromWord(options.simulated)) return *lens;
     return fail(Fault::outOfRange,
@@ -24,7 +24,7 @@ Result<devices::SimulatedLens> simulatedLens(const LensOptions& options) {
                     "\" is no simulated lens: write slow, datasheet, lively, clean, dirty or ideal.");
 }
 
-Result<Plan> plannedFor(Document& document, const LensOptions& options) {
+Result<Plan> plannedFor(Document& document, const LensChoice& options) {
     const auto lens = simulatedLens(options);
     if (!lens) return tl::unexpected(lens.error());
     auto rig = withOptions(document.rig, options);

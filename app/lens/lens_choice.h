@@ -7,16 +7,16 @@
 
 namespace ilf::app {
 
-struct LensOptions {
+struct LensChoice {
     std::string waves;      ///< how waves are chosen, instead of the rig's; empty: the rig's
     std::string file;       ///< calibration, instead of the rig's
     std::string simulated;  ///< the lens that is simulated: a preset or ideal; empty: the usual one
 };
 
 /// The rig with what was typed in place of its own.
-Result<Rig> withOptions(Rig rig, const LensOptions& options);
-Result<devices::SimulatedLens> simulatedLens(const LensOptions& options);
+Result<Rig> withOptions(Rig rig, const LensChoice& options);
+Result<devices::SimulatedLens> simulatedLens(const LensChoice& options);
 /// Document with its rig replaced, and the plan for it.
-Result<Plan> plannedFor(Document& document, const LensOptions& options);
+Result<Plan> plannedFor(Document& document, const LensChoice& options);
 
 }  // namespace ilf::app
