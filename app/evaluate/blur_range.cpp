@@ -26,8 +26,8 @@ struct Participant {
     std::uint64_t seed;
 };
 
-/// Whether more than three of six rings at `distance` are read through a lens at `power`.
-bool reads(const Participant& who, double distance, double power, int rays) {
+/// Whether two thirds of the rings at `distance` are read through a lens at `power`: four of six, as the paper asks.
+bool reads(const Participant& who, double distance, double power, int rays, int rings) {
     const Metre pitch = Metre::fromSi(kReceptor_arcmin * kArcmin / 60.0), w = Metre::fromSi(distance);
     const Dioptre lens = Dioptre::fromSi(power);
     const TracedCamera eye = accommodatedEye(who.pupil, kLensToPupil, 10.0_D, pitch, w, lens);
@@ -38,12 +38,12 @@ bool reads(const Participant& who, double distance, double power, int rays) {
     RingReader reader(kReceptors, gapSeen, who.noise, 1000003 * who.seed + 17 * place);
     std::mt19937_64 shuffled(999983 * who.seed + place);
     int right = 0;
-    for (int ring = 0; ring < 6; ++ring) {
+    for (int ring = 0; ring < rings; ++ring) {
         const int direction = 2 * static_cast<int>(shuffled() % 4);
         const auto light = picturedRing(eye, {w, gap, direction}, heldPower(lens), kReceptors, rays);
         right += reader.read(light) == direction ? 1 : 0;
     }
-    return right > 3;
+    return 3 * right >= 2 * rings;
 }
 
 struct Border {
@@ -53,21 +53,19 @@ struct Border {
 Border borderOf(const Participant& who, double distance, const EvaluateOptions& options) {
     const int rays = options.quick ? 64 : 128;
     Border border;
-    // Up the paper's staircase from 0 D; its highest step is 2.4 D.
-    constexpr int kSteps = 13;
-    int last = -1;
-    for (int i = 0; i < kSteps; ++i) {
-        if (reads(who, distance, 0.2 * i, rays)) last = i;
+    // Up the paper's staircase to 2.4 D, until two steps in a row fail: later ones would be luck.
+    constexpr int kSteps = 13, kRings = 6;
+    int last = 0;
+    for (int i = 0; i < kSteps && i <= last + 2; ++i) {
+        if (reads(who, distance, 0.2 * i, rays, kRings)) last = i;
     }
-    border.step = 0.2 * std::max(0, last);
-    // Then halve the step above it until it is 0.0125 D; what is beyond the paper's steps is looked for as well.
-    double low = border.step, high = low + 0.2;
-    while (reads(who, distance, high, rays))
-        high += 0.2;
-    low = high - 0.2;
-    for (int i = 0; i < 4; ++i) {
+    border.step = 0.2 * last;
+    // Then, with more rings, halve what lies around that step, the border being in it; its last piece is 0.0125 D long.
+    constexpr int kManyRings = 24;
+    double low = std::max(0.0, border.step - 0.2), high = border.step + 0.2;
+    for (int i = 0; i < 5; ++i) {
         const double middle = 0.5 * (low + high);
-        (reads(who, distance, middle, rays) ? low : high) = middle;
+        (reads(who, distance, middle, rays, kManyRings) ? low : high) = middle;
     }
     border.exact = 0.5 * (low + high);
     return border;

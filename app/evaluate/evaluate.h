@@ -42,7 +42,7 @@ Result<BlurSizes> blurSizes(const EvaluateOptions& options);
 struct BorderCase {
     double distance_mm = 0.0;
     /// Of the observers: the largest power of the paper's 0.2 D steps through which more than three of six rings were
-    /// read, and the border found by bisection.
+    /// read, and the border found by bisection with 24 rings.
     MeanSpread steps_D, border_D;
 };
 struct BlurRange {

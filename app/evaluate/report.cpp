@@ -111,29 +111,20 @@ std::map<std::string, Image<std::uint8_t>> seamPictures(const std::vector<SeamCa
 Chart blurSizeChart(const BlurSizes& sizes) {
     Chart chart{"Blur circle of a camera behind the lens",
                 "Simulated: 24 mm F1.4, 8.4 um pixels, 20 mm behind a lens 16 mm wide, focused on the dots at 0 D "
-                "(assumed); 1 ms of light.",
+                "(assumed); all distances.",
                 {"Lens power P_E [D]", 0.0, 5.0},
                 {"Radius [px]", 0.0, 120.0},
                 {}};
-    std::map<double, Curve> fixed, swept;
-    Curve model{"model (all distances)", Mark::line, 6, {}};
+    Curve model{"model, 500 mm", Mark::line, 6, {}}, middle{"fixed, middle circle", Mark::dots, 0, {}},
+        fixed{"fixed, mean of nine", Mark::dots, 1, {}}, swept{"swept, mean of nine", Mark::rings, 2, {}};
     for (const BlurCase& c : sizes.cases) {
-        fixed[c.distance_mm].points.push_back({c.power_D, c.fixed_px});
-        swept[c.distance_mm].points.push_back({c.power_D, c.wave_px});
+        middle.points.push_back({c.power_D, c.middle_px});
+        fixed.points.push_back({c.power_D, c.fixed_px});
+        swept.points.push_back({c.power_D, c.wave_px});
         if (c.distance_mm == sizes.cases.front().distance_mm) model.points.push_back({c.power_D, c.model_px});
     }
-    chart.curves.push_back(std::move(model));
-    int colour = 0;
-    for (auto& [distance, curve] : fixed) {
-        curve.label = with("%.0f mm, fixed", distance);
-        curve.mark = Mark::dots;
-        Curve& other = swept[distance];
-        other.label = with("%.0f mm, swept", distance);
-        other.mark = Mark::rings;
-        curve.colour = other.colour = colour++;
-        chart.curves.push_back(curve);
-        chart.curves.push_back(other);
-    }
+    // The distances lie on top of each other: they differ by less than half a pixel.
+    chart.curves = {std::move(model), std::move(middle), std::move(fixed), std::move(swept)};
     return chart;
 }
 
