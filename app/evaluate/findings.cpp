@@ -34,7 +34,8 @@ void aboutSizes(const BlurSizes& sizes, std::vector<Finding>& out) {
          "Dots of one projector pixel add next to nothing, for Otsu's threshold halves a blurred edge. The mean of "
          "nine "
          "is 3 to 6 % smaller than the middle circle, since the camera's own rim cuts the light of the outer dots: "
-         "here lies a difference to the paper, whose dots were larger or its camera nearer to the lens."});
+         "a likely cause of the difference to the paper, if its dots were larger or its camera nearer to the lens "
+         "(neither is stated)."});
     out.push_back({"swept less fixed radius, exact sine", plusMinus(sizes.sine, " px"), "1.4 +- 1.8 px",
                    "A slot of 1 ms at the end of an exact sine changes the power by less than 1 %, and only downwards: "
                    "what the paper found cannot come from the 1 ms alone."});

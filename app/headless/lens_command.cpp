@@ -1,7 +1,6 @@
 #include "app/headless/lens_command.h"
 
 #include <chrono>
-#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -14,15 +13,6 @@
 
 namespace ilf::app {
 namespace {
-
-std::string utcNow() {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text;
-}
 
 std::string decimal(const char* format, double value) {
     char text[64];
@@ -53,14 +43,6 @@ Result<void> replaceable(const std::string& file) {
     if (there && allSimulated(*there)) return {};
     return fail(Fault::cannotWrite,
                 "\"" + file + "\" is there already and holds no simulated waves; choose another name.");
-}
-
-projects::WaveFile emptyFile(const LensBench& bench) {
-    projects::WaveFile waves;
-    waves.lens = lensOf(bench);
-    waves.recordedUtc = utcNow();
-    waves.software = std::string("illuminatedfocus ") + kVersion;
-    return waves;
 }
 
 Result<void> record(const LensRecordOptions& options) {

@@ -2,13 +2,19 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <utility>
 
 #include "app/lens/record_lens.h"
 #include "core/lens/sine_record.h"
+#include "ilf/version.h"
+#include "projects/xdg.h"
 
 namespace ilf::app {
 namespace {
@@ -101,6 +107,15 @@ LensBench quickBench(devices::LensPreset preset) {
     return bench;
 }
 
+std::string utcNow() {
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
+
 }  // namespace
 
 std::optional<LensBench> benchOf(const projects::RecordedLens& lens) {
@@ -122,6 +137,14 @@ projects::RecordedLens lensOf(const LensBench& bench) {
     lens.model = word(bench.preset);
     if (bench.seed != 0) lens.serial = "seed " + std::to_string(bench.seed);
     return lens;
+}
+
+projects::WaveFile emptyFile(const LensBench& bench) {
+    projects::WaveFile waves;
+    waves.lens = lensOf(bench);
+    waves.recordedUtc = utcNow();
+    waves.software = std::string("illuminatedfocus ") + kVersion;
+    return waves;
 }
 
 Result<ShapedWave> learntOn(const LensBench& bench, std::span<const Dioptre> levels, double duty, int harmonics,
@@ -184,6 +207,24 @@ Result<Calibration> simulatedCalibration(devices::LensPreset preset, Hertz rate)
     if (const auto added = addRate(calibration, *records); !added) return tl::unexpected(added.error());
     kept = std::make_shared<const LensCalibration>(std::move(calibration));
     return kept;
+}
+
+Result<Calibration> simulatedTable(devices::LensPreset preset, Hertz rate) {
+    LensBench bench;
+    bench.preset = preset;
+    char name[96];
+    std::snprintf(name, sizeof name, "%s-%s-%.6gHz.ilflens", std::string(word(preset)).c_str(), kVersion, rate.si());
+    const std::filesystem::path path = projects::cacheDir() / "simulated-lenses" / name;
+    if (auto kept = projects::openWaves(path).and_then(calibrationFrom)) return kept;
+    auto records = paperWaves(bench, rate);
+    if (!records) return tl::unexpected(records.error());
+    projects::WaveFile waves = emptyFile(bench);
+    waves.records = *std::move(records);
+    std::error_code ignored;
+    std::filesystem::create_directories(path.parent_path(), ignored);
+    // As it will be read the next time, to the last bit; without a cache it is recorded again then.
+    if (projects::saveWaves(path, waves)) return projects::openWaves(path).and_then(calibrationFrom);
+    return calibrationFrom(waves);
 }
 
 Result<Calibration> withShapedWave(const Calibration& calibration, devices::LensPreset preset,

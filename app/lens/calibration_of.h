@@ -22,14 +22,21 @@ Result<Calibration> calibrationFrom(const projects::WaveFile& waves);
 /// first time, kept for each preset and rate. May be called from any thread.
 Result<Calibration> simulatedCalibration(devices::LensPreset preset, Hertz rate);
 
-/// The same with one more shaped wave that holds the lens at `levels` for `duty` of the sweep each, learnt on the
-/// emulator.
+/// With the paper's 2485 waves, for the ways of choosing that take recorded waves alone. Recorded on the emulator the
+/// first time (seconds on two cores) and kept as a wave database in the cache folder; a file there that cannot be read
+/// is made anew. May be called from any thread.
+Result<Calibration> simulatedTable(devices::LensPreset preset, Hertz rate);
+
+/// Like simulatedCalibration with one more shaped wave that holds the lens at `levels` for `duty` of the sweep each,
+/// learnt on the emulator.
 Result<Calibration> withShapedWave(const Calibration& calibration, devices::LensPreset preset,
                                    std::span<const Dioptre> levels, double duty, int harmonics, Hertz rate);
 
 /// The emulator a file's waves were recorded on; none for a real lens.
 std::optional<LensBench> benchOf(const projects::RecordedLens& lens);
 projects::RecordedLens lensOf(const LensBench& bench);
+/// A database of that lens, recorded now, without waves.
+projects::WaveFile emptyFile(const LensBench& bench);
 
 /// A wave that holds the lens of `bench` at `levels` for `duty` of the sweep each, learnt on it.
 Result<ShapedWave> learntOn(const LensBench& bench, std::span<const Dioptre> levels, double duty, int harmonics,

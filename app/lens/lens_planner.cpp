@@ -4,14 +4,25 @@
 
 namespace ilf::app {
 
-LensPlanner::Key LensPlanner::keyOf(const Rig& rig) { return {rig.lens, rig.lens.empty() ? rig.sweepRate.si() : 0.0}; }
+namespace {
+
+/// These two ways choose among recorded waves, and the more there are the better.
+bool takesRecords(const Rig& rig) { return rig.waves == WaveMode::paper || rig.waves == WaveMode::slotAware; }
+
+}  // namespace
+
+LensPlanner::Key LensPlanner::keyOf(const Rig& rig) {
+    if (!rig.lens.empty()) return {rig.lens, 0.0, false};
+    return {std::string(), rig.sweepRate.si(), takesRecords(rig)};
+}
 
 Result<Calibration> LensPlanner::calibration(const Rig& rig) {
     if (rig.waves == WaveMode::idealSine || (rig.lens.empty() && !lens_.preset)) return Calibration();
     Calibration& kept = known_[keyOf(rig)];
     if (kept) return kept;
-    auto made = rig.lens.empty() ? simulatedCalibration(*lens_.preset, rig.sweepRate)
-                                 : projects::openWaves(rig.lens).and_then(calibrationFrom);
+    auto made = !rig.lens.empty()   ? projects::openWaves(rig.lens).and_then(calibrationFrom)
+                : takesRecords(rig) ? simulatedTable(*lens_.preset, rig.sweepRate)
+                                    : simulatedCalibration(*lens_.preset, rig.sweepRate);
     if (!made) return made;
     kept = *std::move(made);
     return kept;
@@ -31,7 +42,7 @@ Result<Plan> LensPlanner::plan(const PlanInput& input, const Plan* previous, boo
 
 bool LensPlanner::learn(const PlanInput& input, const std::vector<Dioptre>& levels) {
     const Key key = keyOf(input.rig);
-    if (!key.first.empty() || !lens_.preset || cannotLearn_.contains({key, levels})) return false;
+    if (!std::get<0>(key).empty() || !lens_.preset || cannotLearn_.contains({key, levels})) return false;
     auto learnt = withShapedWave(input.lens, *lens_.preset, levels, usualDuty(levels.size(), input.rig.sweepRate),
                                  kUsualHarmonics, input.rig.sweepRate);
     if (!learnt) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "app/lens/calibration_of.h"
@@ -12,7 +13,8 @@
 
 namespace ilf::app {
 
-/// Calibrations are made once a file, or a rate of the simulated lens, and kept. One thread at a time.
+/// Calibrations are made once a file, or a rate of the simulated lens, and kept; the recorded waves of the simulated
+/// lens (paper, slotAware) take seconds the first time. One thread at a time.
 class LensPlanner {
 public:
     /// `lens`: what is simulated where the rig names no file.
@@ -29,7 +31,7 @@ public:
 private:
     bool learn(const PlanInput& input, const std::vector<Dioptre>& levels);
 
-    using Key = std::pair<std::string, double>;  ///< file, rate
+    using Key = std::tuple<std::string, double, bool>;  ///< file; of the simulated lens: rate, many records
     static Key keyOf(const Rig& rig);
 
     devices::SimulatedLens lens_;

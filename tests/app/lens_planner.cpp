@@ -1,6 +1,12 @@
 // Plans on calibrated lenses: what they hold on every preset, what is kept, and what a lens cannot do.
 #include "app/lens/lens_planner.h"
 
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "app/open.h"
 #include "core/plan/report.h"
 #include "tests/support/law.h"
 
@@ -50,6 +56,44 @@ TEST_CASE("planner: every preset's continuous wave holds the paper's scene withi
             CHECK(level.exposure == doctest::Approx(16.0 * planned->light));
         }
     }
+}
+
+TEST_CASE("planner: the samples are planned on every preset without a warning or a problem") {
+    for (const char* name : {"museum-guide", "study-desk", "tutorial-recording", "four-objects"}) {
+        const auto opened = openAny(std::string(ILF_SOURCE_DIR) + "/projects/samples/" + name + ".ilfd");
+        REQUIRE(opened);
+        for (const devices::LensPreset preset : devices::kLensPresets) {
+            INFO(name, " ", word(preset));
+            LensPlanner planner{devices::SimulatedLens(preset)};
+            const auto planned = planner.plan(*planner.input(opened->document), nullptr, true);
+            REQUIRE(planned);
+            CHECK(planned->warnings.empty());
+            for (const RegionPlan& region : planned->regions)
+                CHECK_MESSAGE(region.problem.empty(), region.problem);
+        }
+    }
+}
+
+TEST_CASE("planner: the paper's rule plans with 2485 recorded waves, kept from one time to the next") {
+    const auto folder = std::filesystem::temp_directory_path() / ("ilf-lenses-" + std::to_string(getpid()));
+    setenv("ILF_CACHE_DIR", folder.c_str(), 1);
+    LensPlanner planner{devices::SimulatedLens(devices::LensPreset::datasheet)};
+    const PlanInput input =
+        scene(planner, {object("book", 0.5, Look::focus), object("clutter", 0.5, Look::blur)}, WaveMode::paper);
+    CHECK(input.lens->tables.at(0).waves.size() == 2485);
+    const auto planned = planner.plan(input, nullptr, true);
+    REQUIRE(planned);
+    CHECK(planned->waveform.mode == WaveMode::paper);
+    CHECK(planned->waveform.wave > 0);
+    const Extremes reach = extremes(planned->waveform.power);
+    CHECK(reach.low <= 0.0);
+    CHECK(reach.high >= planned->waveform.high.si());
+    for (const Level& level : planned->levels)
+        CHECK(level.rmsError < 0.3_D);
+    LensPlanner next{devices::SimulatedLens(devices::LensPreset::datasheet)};
+    CHECK(plan(scene(next, input.objects, WaveMode::paper))->waveform == planned->waveform);
+    CHECK(std::filesystem::remove_all(folder) > 1);
+    unsetenv("ILF_CACHE_DIR");
 }
 
 TEST_CASE("planner: a shaped wave is learnt when there is time for it, and gives more light for less error") {
