@@ -77,58 +77,75 @@ void drawCurve(Panel& p, const Plan& plan, const std::vector<LightPoint>& curve)
     ImGui::Dummy({1.0f, static_cast<float>(height)});
 }
 
-}  // namespace
+/// A row for one number of the rig.
+void rigNumber(Panel& p, const char* label, const char* id, double value, FieldSpec spec, void (*put)(Rig&, double)) {
+    if (const auto change = numberRow(p, label, id, value, spec)) {
+        Rig next = p.document().rig;
+        put(next, change->value);
+        p.edit(change->commits, SetRig{next});
+    }
+}
 
-void lightPage(Panel& p) {
-    const Rig& rig = p.document().rig;
-    chooseWaves(p, rig);
+void roomRows(Panel& p, const Rig& rig) {
     chooseProjector(p, rig);
-    const auto number = [&](const char* label, const char* id, double value, FieldSpec spec, auto put) {
-        if (const auto change = numberRow(p, label, id, value, spec)) {
-            Rig next = rig;
-            put(next, change->value);
-            p.edit(change->commits, SetRig{next});
-        }
-    };
-    number("Error", "###powerBudget", rig.powerBudget.si(),
-           {Unit::dioptre, 0.005, 2.0, 0.002, "Slots light a level while the lens's rms error stays below this."},
-           [](Rig& r, double v) { r.powerBudget = Dioptre::fromSi(v); });
-    number("Ambient", "###ambient", rig.room.ambient_lx,
-           {Unit::number, 0.0, 1e5, 1.0, "Light from elsewhere on the lit area, in lux."},
-           [](Rig& r, double v) { r.room.ambient_lx = v; });
-    number("Lumens", "###lumens", rig.room.projector_lm,
-           {Unit::number, 1.0, 1e5, 2.0, "The projector's light when it is steady."},
-           [](Rig& r, double v) { r.room.projector_lm = v; });
-    number("Lit m\u00b2", "###litArea", rig.room.litArea_m2,
-           {Unit::number, 0.01, 100.0, 0.01, "The area that light falls on, in square metres."},
-           [](Rig& r, double v) { r.room.litArea_m2 = v; });
+    rigNumber(p, "Ambient lx", "###ambient", rig.room.ambient_lx,
+              {Unit::number, 0.0, 1e5, 1.0, "Light from elsewhere on the lit area, in lux."},
+              [](Rig& r, double v) { r.room.ambient_lx = v; });
+    rigNumber(p, "Lumens", "###lumens", rig.room.projector_lm,
+              {Unit::number, 1.0, 1e5, 2.0, "The projector's light when it is steady."},
+              [](Rig& r, double v) { r.room.projector_lm = v; });
+    rigNumber(p, "Lit m\u00b2", "###litArea", rig.room.litArea_m2,
+              {Unit::number, 0.01, 100.0, 0.01, "The area that light falls on, in square metres."},
+              [](Rig& r, double v) { r.room.litArea_m2 = v; });
+}
 
-    const Plan* plan = p.plan();
-    if (plan == nullptr) return;
-    for (const Level& level : plan->levels) {
+void levelRows(Panel& p, const Plan& plan) {
+    for (const Level& level : plan.levels) {
         const std::string kind = level.kind == LevelKind::focus ? "focus " : "blur ";
         derivedRow(p, (kind + formatted(level.power)).c_str(),
                    "\u00b1 " + formatted(level.rmsError.si(), Unit::dioptre) + " rms in " +
                        std::to_string(level.slots.size()) + " slots",
                    "Predicted lens power in this level's slots against what was asked.");
     }
-    for (const std::string& warning : plan->warnings)
-        wrapped(warning, colour::warn, Font::small);
-    const auto& report = p.view.computed.report;
-    if (!report) return;
-    drawCurve(p, *plan, report->curve);
-    wrapped(report->why, colour::text, Font::small);
-    for (const std::string& help : report->help)
-        wrapped(help, colour::good, Font::small);
-    for (const PlanNote& note : report->notes) {
-        wrapped(note.text, note.warns ? colour::warn : colour::dim, Font::small);
-        tooltip("Predicted: " + note.model + ".");
-    }
-    const PlanWork& work = plan->work;
-    wrapped("Plans made " + std::to_string(work.plans) + ", waves chosen " + std::to_string(work.wavesChosen) +
-                " and kept " + std::to_string(work.wavesKept) + ", schedules made " +
-                std::to_string(work.schedulesMade) + " and kept " + std::to_string(work.schedulesKept) + ".",
+}
+
+void workRow(const PlanWork& work) {
+    wrapped(std::to_string(work.plans) + " plans: waves chosen " + std::to_string(work.wavesChosen) + ", kept " +
+                std::to_string(work.wavesKept) + "; schedules made " + std::to_string(work.schedulesMade) + ", kept " +
+                std::to_string(work.schedulesKept) + ".",
             colour::dim, Font::small);
+}
+
+}  // namespace
+
+void lightPage(Panel& p) {
+    const Rig& rig = p.document().rig;
+    chooseWaves(p, rig);
+    rigNumber(p, "Error", "###powerBudget", rig.powerBudget.si(),
+              {Unit::dioptre, 0.005, 2.0, 0.002, "Slots light a level while the lens's rms error stays below this."},
+              [](Rig& r, double v) { r.powerBudget = Dioptre::fromSi(v); });
+    const Plan* plan = p.plan();
+    const PlanReport* report = p.view.computed.report.get();
+    if (plan != nullptr) {
+        levelRows(p, *plan);
+        for (const std::string& warning : plan->warnings)
+            wrapped(warning, colour::warn, Font::small);
+        if (report != nullptr) {
+            drawCurve(p, *plan, report->curve);
+            wrapped(report->why, colour::text, Font::small);
+            for (const std::string& help : report->help)
+                wrapped(help, colour::good, Font::small);
+        }
+    }
+    roomRows(p, rig);
+    if (plan == nullptr) return;
+    if (report != nullptr) {
+        for (const PlanNote& note : report->notes) {
+            wrapped(note.text, note.warns ? colour::warn : colour::dim, Font::small);
+            tooltip("Predicted: " + note.model + ".");
+        }
+    }
+    workRow(plan->work);
 }
 
 }  // namespace ilf::ui

@@ -113,7 +113,6 @@ void rigPage(Panel& p) {
 }
 
 void historyPage(Panel& p) {
-    ImGui::BeginChild("###steps", {0, 0}, false, ImGuiWindowFlags_NoNavInputs);
     const auto& labels = p.view.historyLabels;
     for (std::size_t i = labels.size(); i-- > 0;) {
         ImGui::PushID(static_cast<int>(i));
@@ -124,11 +123,10 @@ void historyPage(Panel& p) {
         ImGui::PopStyleColor();
         ImGui::PopID();
     }
-    ImGui::EndChild();
 }
 
 void pagesPanel(Panel& p) {
-    beginPanel("###pages", p.at.pages, colour::panel, true, true);
+    beginPanel("###pages", p.at.pages, colour::panel, true, false);
     const bool own = !p.at.selected.empty();
     Page shown = p.state.page;
     if (own && shown == Page::selected) shown = Page::wearer;
@@ -157,6 +155,9 @@ void pagesPanel(Panel& p) {
     }
     ImGui::PopFont();
     ImGui::SetCursorScreenPos({start.x, start.y + height + p.px(8)});
+    // The tabs stay where they are; the page below them scrolls, each by its own amount.
+    ImGui::BeginChild(static_cast<ImGuiID>(1 + static_cast<int>(shown)), {0, 0}, false,
+                      fixedFlags() & ~ImGuiWindowFlags_NoScrollbar);
     switch (shown) {
     case Page::selected:
         selectedPage(p);
@@ -180,6 +181,7 @@ void pagesPanel(Panel& p) {
         historyPage(p);
         break;
     }
+    ImGui::EndChild();
     ImGui::End();
 }
 

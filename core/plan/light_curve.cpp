@@ -44,6 +44,11 @@ bool worthSaying(const Plan& now, const std::optional<Plan>& then) {
     return then && now.light > 0.0 && then->light >= kWorthSaying * now.light;
 }
 
+/// Deep objects are told by their nearest point, which is what counts.
+const char* nearestPoint(const RegionPlan& region) {
+    return region.nearest == region.farthest ? "" : ", its nearest point,";
+}
+
 /// The driver moved to where the next region would drive, at most to twice its distance.
 void addMovedDriver(const Plan& now, std::vector<std::string>& help) {
     const RegionPlan* driver = driverOf(now);
@@ -62,9 +67,9 @@ void addMovedDriver(const Plan& now, std::vector<std::string>& help) {
     object->nearest = to;
     const auto then = replanned(moved);
     if (!worthSaying(now, then) || !then->pS) return;
-    help.push_back("Move " + quoted(driver->name) + " from " + inWords(driver->nearest) + " to " + inWords(to) +
-                   ": P_s falls from " + inWords(*now.pS) + " to " + inWords(*then->pS) + ", " + gain(now, *then) +
-                   ".");
+    help.push_back("Move " + quoted(driver->name) + nearestPoint(*driver) + " from " + inWords(driver->nearest) +
+                   " to " + inWords(to) + ": P_s falls from " + inWords(*now.pS) + " to " + inWords(*then->pS) + ", " +
+                   gain(now, *then) + ".");
 }
 
 void addMoreError(const Plan& now, std::vector<std::string>& help) {
@@ -122,7 +127,8 @@ std::string whyThisSweep(const Plan& plan) {
     if (plan.waveform.high > *plan.pS + plan.alpha + 1e-6_D)
         return to + " because a strength or a focused object asks for it; " + quoted(driver->name) + " at " +
                inWords(driver->nearest) + " alone would need " + inWords(*plan.pS) + " + alpha.";
-    return to + " because " + quoted(driver->name) + ", the nearest to be blurred, at " + inWords(driver->nearest) +
+    return to + " because " + quoted(driver->name) + ", the nearest to be blurred" +
+           (driver->nearest == driver->farthest ? ", at " : ", its nearest point at ") + inWords(driver->nearest) +
            ", needs P_s = " + inWords(*plan.pS) + ", and alpha adds " + inWords(plan.alpha) + ".";
 }
 

@@ -16,6 +16,14 @@
 
 namespace ilf::ui::test {
 
+/// Name of the child window that a page scrolls in: that of its parent and the number it is begun with.
+inline const char* pageWindow(Page page) {
+    static constexpr const char* kNames[] = {"###pages/00000001", "###pages/00000002", "###pages/00000003",
+                                             "###pages/00000004", "###pages/00000005", "###pages/00000006",
+                                             "###pages/00000007"};
+    return kNames[static_cast<int>(page)];
+}
+
 /// One ImGui context of its own, with fonts and theme, and no backend.
 class Headless {
 public:

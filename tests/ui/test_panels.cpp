@@ -16,7 +16,7 @@ TEST_CASE("panels: a window at rest asks for nothing") {
 
 TEST_CASE("panels: a click on a look sets it") {
     Desk desk(twoRegions());
-    const Requests asked = desk.press("###pages", {"region", "###look", "focus"});
+    const Requests asked = desk.press(pageWindow(Page::selected), {"region", "###look", "focus"});
     const auto* set = lastEdit<SetLook>(asked, When::commit);
     REQUIRE(set != nullptr);
     CHECK(set->region == "Clutter");
@@ -27,7 +27,7 @@ TEST_CASE("panels: a click on a look sets it") {
 TEST_CASE("panels: a distance typed as 50 cm becomes half a metre") {
     Desk desk(twoRegions());
     desk.state.selected = "Face";
-    desk.press("###pages", {"region", "###distance"});
+    desk.press(pageWindow(Page::selected), {"region", "###distance"});
     desk.settle();
     const Requests asked = desk.type("50 cm");
     const auto* set = lastEdit<SetDistance>(asked, When::commit);
@@ -40,7 +40,7 @@ TEST_CASE("panels: a distance typed as 50 cm becomes half a metre") {
 TEST_CASE("panels: a text that is no distance is refused with a sentence and changes nothing") {
     Desk desk(twoRegions());
     const Document before = desk.document();
-    desk.press("###pages", {"region", "###distance"});
+    desk.press(pageWindow(Page::selected), {"region", "###distance"});
     desk.settle();
     CHECK(lastEdit<SetDistance>(desk.type("far away"), When::commit) == nullptr);
     CHECK(desk.document() == before);
@@ -51,7 +51,7 @@ TEST_CASE("panels: the key of a distance opens its field") {
     Desk desk(twoRegions());
     desk.key(keys::letter('D'));
     desk.settle();
-    CHECK(desk.state.field.editing == Headless::id("###pages", {"region", "###distance"}));
+    CHECK(desk.state.field.editing == Headless::id(pageWindow(Page::selected), {"region", "###distance"}));
 }
 
 TEST_CASE("panels: a key pressed and let go within one frame acts and is not held") {
@@ -70,7 +70,7 @@ TEST_CASE("panels: a field is scrubbed by previews and one commit") {
     desk.state.page = Page::wearer;
     desk.settle();
     // The pupil is the second row; its field fills the right of the page.
-    const ImGuiID pupil = Headless::id("###pages", {"###pupil"});
+    const ImGuiID pupil = Headless::id(pageWindow(Page::wearer), {"###pupil"});
     const Rect page = desk.areas().pages;
     Point<WidgetFrame> at{page.right() - 60, page.y};
     for (; at.y < page.bottom(); at.y += 4) {
@@ -120,7 +120,7 @@ TEST_CASE("panels: SAFE LIGHT answers its key even over a dialog and in a text f
     desk.nativeKey(keys::escape);
     desk.settle();
     CHECK_FALSE(desk.state.shortcutsOpen);
-    desk.press("###pages", {"region", "###distance"});
+    desk.press(pageWindow(Page::selected), {"region", "###distance"});
     desk.settle();
     CHECK(asks(desk.key(keys::f(12)), Command::safeLight));
     CHECK(desk.key(keys::letter('B')).empty());
