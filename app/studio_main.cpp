@@ -22,11 +22,15 @@ using namespace ilf::app;
 constexpr const char* kFooter = "Exit codes: 0 done, 1 failed, 2 usage, 3 device, 4 unsafe plan.\n"
                                 "All output is simulated: no lens or projector driver is part of this version.";
 
+const std::vector<std::string> kSimulatedLenses{"slow", "datasheet", "lively", "clean", "dirty", "ideal"};
+
 void addLensChoice(CLI::App& command, LensChoice& choice) {
-    command.add_option("--wave", choice.waves,
-                       "Instead of the rig's: continuous, shaped, slot-aware, paper, ideal-sine");
+    command
+        .add_option("--wave", choice.waves, "Instead of the rig's: continuous, shaped, slot-aware, paper, ideal-sine")
+        ->check(CLI::IsMember({"continuous", "shaped", "slot-aware", "paper", "ideal-sine"}));
     command.add_option("--lens", choice.file, "Calibration of the lens, instead of the rig's");
-    command.add_option("--simulated-lens", choice.simulated, "slow, datasheet, lively, clean, dirty or ideal");
+    command.add_option("--simulated-lens", choice.simulated, "slow, datasheet, lively, clean, dirty or ideal")
+        ->check(CLI::IsMember(kSimulatedLenses));
 }
 
 void addPlan(CLI::App& app, PlanOptions& options) {
@@ -182,7 +186,7 @@ void addStudio(CLI::App& app, StudioOptions& options, std::string& lens) {
     app.add_option("--screenshot", options.screenshot, "Write a PNG of the window once its views are done, then quit");
     app.add_option("--simulated-lens", lens,
                    "Of a core that has to be started: slow, datasheet, lively, clean, dirty, ideal")
-        ->check(CLI::IsMember({"slow", "datasheet", "lively", "clean", "dirty", "ideal"}));
+        ->check(CLI::IsMember(kSimulatedLenses));
     app.add_option("--view", options.view, "Tab to start with: scene, perceived, light or compare")
         ->check(CLI::IsMember({"scene", "perceived", "light", "compare"}));
 }

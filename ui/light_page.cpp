@@ -1,4 +1,5 @@
 // How much light there is and how honest each slot: waves, error allowed, and what the plan says of it in words.
+#include <algorithm>
 #include <array>
 
 #include "core/plan/projector.h"
@@ -27,8 +28,8 @@ std::optional<std::size_t> combo(Panel& p, const char* label, const char* id, co
 void chooseWaves(Panel& p, const Rig& rig) {
     constexpr std::array<WaveMode, 5> kModes{WaveMode::continuous, WaveMode::shaped, WaveMode::slotAware,
                                              WaveMode::paper, WaveMode::idealSine};
-    constexpr std::array<const char*, 5> kNames{"continuous", "shaped, learnt on the lens", "recorded, by slots",
-                                                "recorded, the paper's rule", "ideal sine"};
+    constexpr std::array<const char*, 5> kNames{"continuous", "shaped, learnt", "recorded, by slots",
+                                                "recorded, paper's rule", "ideal sine"};
     std::size_t current = 0;
     while (current + 1 < kModes.size() && kModes[current] != rig.waves)
         ++current;
@@ -71,7 +72,9 @@ void drawCurve(Panel& p, const Plan& plan, const std::vector<LightPoint>& curve)
         {curve.front().budget.si(), curve.back().budget.si()}, light, "D", "%", true);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     chartCurve(draw, frame, points, colour::text, p.px(1.8));
-    const ImVec2 now = frame.at(plan.input.rig.powerBudget.si(), 100.0 * plan.light);
+    const ImVec2 now =
+        frame.at(std::clamp(plan.input.rig.powerBudget.si(), curve.front().budget.si(), curve.back().budget.si()),
+                 100.0 * plan.light);
     draw.AddLine({now.x, static_cast<float>(frame.plot.bottom())}, now, faded(colour::focus, 0.7), p.px(1));
     draw.AddCircleFilled(now, p.px(4.5), colour::focus);
     ImGui::Dummy({1.0f, static_cast<float>(height)});

@@ -40,6 +40,11 @@ Result<void> replaceable(const std::string& file) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return {};
     const auto there = projects::openWaves(file);
+    if (there && !there->shaped.empty()) {
+        return fail(Fault::cannotWrite,
+                    "\"" + file + "\" holds " + std::to_string(there->shaped.size()) +
+                        " learnt waves that would be lost; choose another name, or delete it first.");
+    }
     if (there && allSimulated(*there)) return {};
     return fail(Fault::cannotWrite,
                 "\"" + file + "\" is there already and holds no simulated waves; choose another name.");

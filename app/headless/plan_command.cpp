@@ -97,7 +97,10 @@ int planCommand(const PlanOptions& options) {
     if (!lens) return refuse(lens.error(), kUsage);
     LensPlanner planner(*lens);
     const auto input = inputOf(options, planner);
-    if (!input) return refuse(input.error(), options.file.empty() ? kUsage : exitCode(input.error()));
+    if (!input) {
+        const bool typed = options.file.empty() && input.error().fault == Fault::outOfRange;
+        return refuse(input.error(), typed ? kUsage : exitCode(input.error()));
+    }
     const auto planned = planner.plan(*input, nullptr, true);
     if (!planned) return refuse(planned.error(), exitCode(planned.error()));
     std::cout << (options.json ? planJson(*planned) : planText(*planned)) << std::endl;

@@ -50,7 +50,7 @@ json waveform(const Plan& plan) {
     out["drive_rms"] = wave.drive.rms();
     if (plan.input.lens) {
         out["drive_limits"] = {{"peak", plan.input.lens->limits.peak}, {"rms", plan.input.lens->limits.rms}};
-        out["temperature_C"] = plan.input.lens->temperature_C;
+        out["temperature_C"] = std::round(100.0 * plan.input.lens->temperature_C) / 100.0;
     }
     return out;
 }

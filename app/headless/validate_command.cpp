@@ -1,9 +1,12 @@
 #include "app/headless/validate_command.h"
 
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "app/exit_code.h"
 #include "app/headless/prepare.h"
+#include "core/plan/notes.h"
 
 namespace ilf::app {
 
@@ -16,14 +19,18 @@ int validateCommand(const std::string& file, const LensChoice& lens) {
     for (const RegionPlan& region : plan.regions) {
         if (region.problem.empty()) continue;
         ++problems;
-        std::cout << "problem: \"" << region.name << "\": " << region.problem;
+        std::cout << "problem: " << region.problem;
         if (!region.help.empty()) std::cout << ' ' << region.help;
         std::cout << '\n';
     }
-    for (const std::string& warning : plan.warnings)
+    std::vector<std::string> warnings = plan.warnings;
+    for (const PlanNote& note : planNotes(plan)) {
+        if (note.warns) warnings.push_back(note.text);
+    }
+    for (const std::string& warning : warnings)
         std::cout << "warning: " << warning << '\n';
-    std::cout << file << ": " << plan.regions.size() << " surfaces, " << plan.levels.size() << " levels, " << problems
-              << " problems, " << plan.warnings.size() << " warnings\n";
+    std::cout << file << ": surfaces " << plan.regions.size() << ", levels " << plan.levels.size() << ", problems "
+              << problems << ", warnings " << warnings.size() << '\n';
     return problems == 0 ? kDone : kFailed;
 }
 

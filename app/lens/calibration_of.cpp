@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <tuple>
 #include <utility>
 
 #include "app/lens/record_lens.h"
@@ -192,14 +193,15 @@ Result<Calibration> calibrationFrom(const projects::WaveFile& waves) {
     return std::make_shared<const LensCalibration>(std::move(calibration));
 }
 
-Result<Calibration> simulatedCalibration(devices::LensPreset preset, Hertz rate) {
+Result<Calibration> simulatedCalibration(devices::LensPreset preset, Hertz rate, Dioptre rest) {
     static std::mutex mutex;
-    static std::map<std::pair<devices::LensPreset, double>, Calibration> made;
+    static std::map<std::tuple<devices::LensPreset, double, double>, Calibration> made;
     const std::scoped_lock lock(mutex);
-    Calibration& kept = made[{preset, rate.si()}];
+    const Dioptre about = Dioptre::fromSi(std::round(rest.si()));
+    Calibration& kept = made[{preset, rate.si(), about.si()}];
     if (kept) return kept;
     const LensBench bench = quickBench(preset);
-    const auto records = surveyed(bench, rate, 40);
+    const auto records = surveyed(bench, rate, 40, about);
     if (!records) return tl::unexpected(records.error());
     LensCalibration calibration;
     calibration.lens = lensOf(bench).name();

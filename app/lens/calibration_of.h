@@ -19,8 +19,8 @@ using Calibration = std::shared_ptr<const LensCalibration>;
 Result<Calibration> calibrationFrom(const projects::WaveFile& waves);
 
 /// Plays sine drives on a lens emulator as one would on a lens, and fits what was recorded: about 0.1 s on one core the
-/// first time, kept for each preset and rate. May be called from any thread.
-Result<Calibration> simulatedCalibration(devices::LensPreset preset, Hertz rate);
+/// first time, kept for each preset, rate and rest power (to a dioptre). May be called from any thread.
+Result<Calibration> simulatedCalibration(devices::LensPreset preset, Hertz rate, Dioptre rest = {});
 
 /// With the paper's 2485 waves, for the ways of choosing that take recorded waves alone. Recorded on the emulator the
 /// first time (seconds on two cores) and kept as a wave database in the cache folder; a file there that cannot be read

@@ -21,7 +21,8 @@ public:
     explicit LensPlanner(devices::SimulatedLens lens = devices::kUsualLens) : lens_(lens) {}
 
     /// None for the ideal lens, which needs none, and for rigs that plan ideal sines.
-    Result<Calibration> calibration(const Rig& rig);
+    /// `rest`: where the wearer's prescription holds the lens.
+    Result<Calibration> calibration(const Rig& rig, Dioptre rest = {});
     /// What the document asks, with the lens's calibration.
     Result<PlanInput> input(const Document& document);
     /// With `learn` a shaped wave that is asked for and missing is learnt first, where the lens is simulated (0.2 s); a
@@ -31,8 +32,9 @@ public:
 private:
     bool learn(const PlanInput& input, const std::vector<Dioptre>& levels);
 
-    using Key = std::tuple<std::string, double, bool>;  ///< file; of the simulated lens: rate, many records
-    static Key keyOf(const Rig& rig);
+    /// File, when written; or of the simulated lens: rate, many records, rest power.
+    using Key = std::tuple<std::string, double, bool, double>;
+    static Key keyOf(const Rig& rig, Dioptre rest);
 
     devices::SimulatedLens lens_;
     std::map<Key, Calibration> known_;

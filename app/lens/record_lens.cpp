@@ -45,7 +45,7 @@ Result<std::vector<LensRecord>> recordedAll(const LensBench& bench, const std::v
     return records;
 }
 
-Result<std::vector<LensRecord>> surveyed(const LensBench& bench, Hertz rate, std::size_t waves) {
+Result<std::vector<LensRecord>> surveyed(const LensBench& bench, Hertz rate, std::size_t waves, Dioptre rest) {
     if (waves < 9) {
         return fail(Fault::outOfRange,
                     "A survey of the lens needs at least 9 waves, not " + std::to_string(waves) + "; 40 are usual.");
@@ -63,16 +63,17 @@ Result<std::vector<LensRecord>> surveyed(const LensBench& bench, Hertz rate, std
     }
     const double most = kNearLimit * limits.peak;
     const auto steady = [&](double power_D) { return std::clamp((power_D - resting) / perVolt, -most, most); };
-    const double low = steady(kMiddle_D - kMeans_D), high = steady(kMiddle_D + kMeans_D);
+    const double middle_D = rest.si() + kMiddle_D;
+    const double low = steady(middle_D - kMeans_D), high = steady(middle_D + kMeans_D);
     const double swing = std::min(kSwing_D / swingPerVolt, most - std::abs(0.5 * (low + high)));
     std::vector<Harmonics> drives;
     for (const SineDrive& drive : drivesToRecord(low, high, waves, swing)) {
         const double room = most - std::abs(drive.offset);
         drives.push_back(sine(drive.offset, std::min(drive.amplitude, std::max(room, 0.0))));
     }
-    auto rest = recordedAll(bench, drives, rate);
-    if (!rest) return rest;
-    for (LensRecord& record : *rest) {
+    auto others = recordedAll(bench, drives, rate);
+    if (!others) return others;
+    for (LensRecord& record : *others) {
         record.id = static_cast<std::int64_t>(probes->size()) + 1;
         probes->push_back(std::move(record));
     }

@@ -23,7 +23,8 @@ Result<std::vector<LensRecord>> recordedAll(const LensBench& bench, const std::v
 
 /// Three drives to learn how far the lens moves at this rate, then about `waves` (at least 9) that cover sweeps between
 /// -2.5 and 7 D as a model needs it, steady ones included; fewer dioptres where the lens's drive ends before.
-Result<std::vector<LensRecord>> surveyed(const LensBench& bench, Hertz rate, std::size_t waves);
+/// `rest` moves all of it: where the wearer's prescription holds the lens.
+Result<std::vector<LensRecord>> surveyed(const LensBench& bench, Hertz rate, std::size_t waves, Dioptre rest = {});
 
 /// The paper's: a sine between any two of 71 voltages from -70 to 70 mV, 2485 of them (section 3.4). Where the lens
 /// resonates many leave its +-10 D; they are recorded as they are, and selection leaves them out.

@@ -57,7 +57,8 @@ inline constexpr int kRestWidth = 1024;
 
 class Worker {
 public:
-    /// `lens` is the simulated one that plans are made for where the rig names no calibration. `onDone` is called on the worker's thread whenever `done` has something new (to wake the window).
+    /// `lens` is the simulated one that plans are made for where the rig names no calibration. `onDone` is called on
+    /// the worker's thread whenever `done` has something new (to wake the window).
     explicit Worker(devices::SimulatedLens lens, std::function<void()> onDone = {});
 
     void post(Job job) { jobs_.put(std::move(job)); }

@@ -112,8 +112,10 @@ WaveChoice fromTable(const LensCalibration& lens, WaveMode mode, const WaveWish&
         const std::string does = mode == WaveMode::paper ? " covers " : " comes within 0.6 D of ";
         std::string why = "None of the " + std::to_string(table->waves.size()) + " recorded waves" + atRate(wish) +
                           does + range(wish) + " within the lens's limits";
-        why += reach ? ": the largest high power is " + shortly(*reach) + " D; bring it down, or record larger waves."
-                     : ": none has so low a lowest power; record waves about a lower mean.";
+        why += reach && *reach >= high
+                   ? ": none of them lies near it; record more waves, or choose the continuous mode."
+               : reach ? ": the largest high power is " + shortly(*reach) + " D; bring it down, or record larger waves."
+                       : ": none has so low a lowest power; record waves about a lower mean.";
         return none(std::move(why), reach.value_or(low));
     }
     const TableWave& chosen = table->waves[*index];

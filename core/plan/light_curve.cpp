@@ -23,6 +23,7 @@ std::vector<LevelWish> wishesOf(const Plan& plan) {
         LevelWish wish{plan.levels[l].kind, plan.levels[l].power, std::nullopt};
         for (const RegionPlan& region : plan.regions) {
             if (wish.kind != LevelKind::blur || region.level != static_cast<int>(l) || !region.pMin) continue;
+            if (*region.pMin >= wish.power) continue;  // cannot be blurred, and binds no one
             wish.above = std::max(wish.above.value_or(*region.pMin), *region.pMin);
         }
         wishes.push_back(wish);
@@ -105,6 +106,11 @@ std::vector<LightPoint> lightCurve(const Plan& plan, int points) {
         LightPoint point{rig.powerBudget, schedule.light, {}};
         for (const Level& level : schedule.levels)
             point.rmsError = std::max(point.rmsError, level.rmsError);
+        // What less error gave, more error gives too: the scheduler moves the wave for 2 % of gain only.
+        if (!curve.empty() && curve.back().light > point.light) {
+            point.light = curve.back().light;
+            point.rmsError = curve.back().rmsError;
+        }
         curve.push_back(point);
     }
     return curve;
@@ -120,14 +126,19 @@ std::vector<std::string> whatWouldHelp(const Plan& plan) {
 }
 
 std::string whyThisSweep(const Plan& plan) {
-    if (!plan.sweeps()) return "The lens stands still: nothing has to be blurred by a sweep.";
+    if (!plan.sweeps()) {
+        const bool asked = std::ranges::any_of(
+            plan.regions, [](const RegionPlan& r) { return r.look == Look::blur && !r.problem.empty(); });
+        return asked ? "The lens stands still: what is to be blurred is out of its reach."
+                     : "The lens stands still: nothing has to be blurred by a sweep.";
+    }
     const std::string to = "The sweep goes to " + inWords(plan.waveform.high);
     const RegionPlan* driver = driverOf(plan);
     if (driver == nullptr) return to + " because that is where focused objects are sharp.";
     if (plan.waveform.high > *plan.pS + plan.alpha + 1e-6_D)
         return to + " because a strength or a focused object asks for it; " + quoted(driver->name) + " at " +
                inWords(driver->nearest) + " alone would need " + inWords(*plan.pS) + " + alpha.";
-    return to + " because " + quoted(driver->name) + ", the nearest to be blurred" +
+    return to + " because " + quoted(driver->name) + ", the nearest that can be blurred" +
            (driver->nearest == driver->farthest ? ", at " : ", its nearest point at ") + inWords(driver->nearest) +
            ", needs P_s = " + inWords(*plan.pS) + ", and alpha adds " + inWords(plan.alpha) + ".";
 }

@@ -69,17 +69,19 @@ PlanNote flickerNote(const Plan& plan) {
         modulation = std::max(modulation, modulationAt(plan, l, 1));
     const double rate = plan.waveform.rate.si(), luminance = litIlluminance(plan) * kWhite / std::numbers::pi;
     const auto fusion = [&](double field) { return flickerFusion(luminance, modulation, field, plan.input.ageYears); };
-    const double limit = rate < 90.0 ? 0.025 * rate : 0.08 * rate;
-    PlanNote note{NoteTopic::flicker, fusion(50.0).si() > rate, {}, kFlickerModel};
-    note.text = "Light pulses at " + inWords(rate, 0) + " Hz by " + inWords(100.0 * modulation, 0) +
-                " %, beyond IEEE 1789's " + inWords(limit, 1) + " %: warn photosensitive people. Predicted fusion at " +
-                inWords(litIlluminance(plan), 0) + " lx is " + inWords(fusion(10.0).si(), 0) + ", " +
-                inWords(fusion(30.0).si(), 0) + " and " + inWords(fusion(50.0).si(), 0) +
-                " Hz for fields of 10, 30 and 50 degrees: ";
-    note.text += note.warns ? fusion(10.0).si() > rate
-                                  ? "flicker will be seen. Raise the sweep rate to 90 Hz or more, or dim the light."
-                                  : "flicker may be seen at the edge of the view. A sweep of 90 Hz would hide it."
-                            : "no flicker is expected.";
+    const double limit = rate < 90.0 ? 0.025 * rate : std::min(100.0, 0.08 * rate);
+    const double most = fusion(50.0).si();
+    PlanNote note{NoteTopic::flicker, most > rate, {}, kFlickerModel};
+    note.text =
+        "Light comes in " + inWords(plan.waveform.rate) + " pulses with darkness between, where IEEE 1789 calls " +
+        inWords(limit, 1) + " % of modulation low risk: warn photosensitive people. Predicted fusion at " +
+        inWords(litIlluminance(plan), 0) + " lx is " + inWords(fusion(10.0).si(), 0) + ", " +
+        inWords(fusion(30.0).si(), 0) + " and " + inWords(most, 0) + " Hz for fields of 10, 30 and 50 degrees: ";
+    const std::string better = inWords(std::ceil(most / 10.0) * 10.0, 0) + " Hz";
+    note.text += !note.warns ? "no flicker is expected."
+                 : fusion(10.0).si() > rate
+                     ? "flicker will be seen. Sweep at " + better + " or more, or dim the light."
+                     : "flicker may be seen at the edge of the view. A sweep of " + better + " would hide it.";
     return note;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/plan/sweep.h"
 #include "core/plan/verdicts.h"
@@ -123,17 +124,21 @@ void explainTooFast(const Draft& draft, std::size_t level, std::size_t replaceme
 tl::unexpected<Error> tooFast(const Draft& draft, std::size_t level, const Plan& plan) {
     const auto lit = std::ranges::find(draft.ofRegion, level);
     const bool named = lit != draft.ofRegion.end() && plan.input.camera;
-    const std::string what = named ? quoted(plan.regions[static_cast<std::size_t>(lit - draft.ofRegion.begin())].name) +
-                                         " is in focus for the camera at "
-                                   : std::string("The plan needs light at ");
+    std::string what = "The plan needs light at ";
+    if (named) {
+        what = quoted(plan.regions[static_cast<std::size_t>(lit - draft.ofRegion.begin())].name) +
+               (draft.wishes[level].kind == LevelKind::focus ? " is in focus for the camera at "
+                                                             : " is to be blurred for the camera at ");
+    }
     const WaveMode mode = plan.waveform.mode;
     const std::string wave = mode == WaveMode::idealSine ? "sine" : std::string(word(mode)) + " wave";
     return fail(Fault::unsafe, what + inWords(draft.wishes[level].power) + ", where a " + wave + " of " +
                                    inWords(plan.waveform.low) + " to " + inWords(plan.waveform.high) + " at " +
-                                   inWords(plan.waveform.rate.si(), 0) + " Hz does not stay within the error budget, " +
+                                   inWords(plan.waveform.rate) + " does not stay within the error budget, " +
                                    inWords(plan.input.rig.powerBudget) +
                                    ", for even one slot. Bring the distances closer together, allow more error, or use "
-                                   "a rig with shorter slots or a shaped wave.");
+                                   "a rig with shorter slots" +
+                                   (plan.input.rig.waves == WaveMode::shaped ? "." : " or a shaped wave."));
 }
 
 /// Gives every level slots. Levels in the middle of the sweep that the wave cannot hold are given up in words; a
@@ -223,23 +228,41 @@ Dioptre highOf(const Plan& plan, const FocusVerdict& focus, const std::vector<Bl
     return high;
 }
 
-/// No wave reaches: says so, and what the largest P_s would be.
-tl::unexpected<Error> outOfReach(const Plan& plan, Dioptre high, const WaveChoice& choice) {
-    std::string why = choice.why;
-    if (plan.pS && choice.reachable < high) {
-        const Dioptre most = choice.reachable - plan.farOffset;
-        why += " The largest P_s this lens reaches is " + inWords(choice.reachable) + ", and " + inWords(*plan.pS) +
-               " is asked for";
-        const auto driver = std::ranges::find(plan.regions, *plan.driver, &RegionPlan::id);
-        if (driver != plan.regions.end() && most > 0.0_D)
-            why += ": move " + quoted(driver->name) + " beyond " + inWordsRoundedUp(1.0 / most);
-        why += ".";
+/// Whose wish the end of the sweep is.
+std::string whoAsksFor(const Plan& plan, Dioptre high, const std::vector<BlurWish>& blurs, const FocusVerdict& focus,
+                       const WaveChoice& choice) {
+    const std::string reaches = "The lens reaches " + inWords(choice.reachable) + " at most here";
+    for (std::size_t i = 0; i < blurs.size(); ++i) {
+        if (blurs[i].power != high) continue;
+        const Dioptre left = choice.reachable - *plan.regions[i].pMin;
+        return reaches + ", and the strength of " + quoted(plan.regions[i].name) + " asks for " + inWords(high) +
+               (left > 0.0_D ? ": lower it to " + inWords(left) + "." : ": lower it, or move it away.");
     }
-    return fail(Fault::unsafe, why);
+    if (focus.powers.back() == high) {
+        for (std::size_t i = 0; i < plan.regions.size(); ++i) {
+            if (plan.regions[i].look != Look::focus || focus.powers[focus.ofObject[i]] != high) continue;
+            return reaches + ", and " + quoted(plan.regions[i].name) + " is sharp at " + inWords(high) +
+                   ": move it away, or do not focus it.";
+        }
+        return reaches + ".";
+    }
+    const auto driver = std::ranges::find_if(plan.regions, [&](const RegionPlan& r) { return plan.driver == r.id; });
+    if (driver == plan.regions.end()) return reaches + ".";
+    const Dioptre most = choice.reachable - plan.farOffset;
+    return "The largest P_s this lens reaches here is " + inWords(choice.reachable) + ", and " + quoted(driver->name) +
+           " asks for " + inWords(*plan.pS) +
+           (most > 0.0_D ? ": move it beyond " + inWordsRoundedUp(1.0 / most) + "." : ".");
 }
 
-/// Chooses the wave, for less alpha than asked where the lens does not reach farther.
+/// Chooses the wave, for less alpha than asked where lens or rig do not reach farther.
 Result<Draft> swept(const FocusVerdict& focus, const std::vector<BlurWish>& blurs, SweepPlanner& sweep, Plan& plan) {
+    const auto relax = [&](Dioptre reach, const std::string& why) {
+        const Dioptre asked = std::exchange(plan.alpha, reach - *plan.pS);
+        plan.warnings.push_back("Alpha is " + inWords(plan.alpha) + " instead of " + inWords(asked) + ": " + why +
+                                " Blur is that much nearer to its border.");
+    };
+    const Dioptre most = plan.input.rig.lensMax;
+    if (plan.pS && *plan.pS + plan.alpha > most) relax(most, "the rig's lens goes to " + inWords(most) + ".");
     for (;;) {
         const Dioptre high = highOf(plan, focus, blurs);
         Draft draft = drafted(plan.input, plan, focus, blurs, high);
@@ -250,15 +273,18 @@ Result<Draft> swept(const FocusVerdict& focus, const std::vector<BlurWish>& blur
         }
         // Rounded down, so that the next choice is not refused for the last digit.
         const Dioptre reach = Dioptre::fromSi(std::floor(choice.reachable.si() * 1e3) * 1e-3);
-        if (!plan.pS || reach <= *plan.pS || reach - *plan.pS >= plan.alpha) return outOfReach(plan, high, choice);
-        const Dioptre asked = plan.alpha;
-        plan.alpha = reach - *plan.pS;
-        plan.warnings.push_back("Alpha is " + inWords(plan.alpha) + " instead of " + inWords(asked) + ": " +
-                                choice.why + " Blur is that much nearer to its border.");
+        const bool alphaAsks = plan.pS && high == *plan.pS + plan.alpha;
+        if (alphaAsks && reach > *plan.pS && reach < high) {
+            relax(reach, choice.why);
+        } else {
+            return fail(Fault::unsafe,
+                        choice.why + (choice.reachable < high ? " " + whoAsksFor(plan, high, blurs, focus, choice)
+                                                              : std::string()));
+        }
     }
 }
 
-void warnOfWave(Plan& plan) {
+void warnOfWave(Plan& plan, const std::string& unshaped) {
     for (const Level& level : plan.levels) {
         if (!plan.sweeps() || level.rmsError <= level.budget * (1.0 + 1e-9)) continue;
         plan.warnings.push_back("Light for " + inWords(level.power) + " is off by " + inWords(level.rmsError) +
@@ -271,12 +297,8 @@ void warnOfWave(Plan& plan) {
         plan.warnings.push_back(
             "The lens has no calibration: the plan is for an ideal sine, which no real lens follows. "
             "Record its waves, or choose ideal-sine to plan without.");
-    } else if (!plan.unlearnt.empty()) {
-        std::string levels;
-        for (const Dioptre level : plan.unlearnt)
-            levels += (levels.empty() ? "" : ", ") + inWords(level);
-        plan.warnings.push_back("No wave that holds " + levels + " at " + inWords(plan.waveform.rate.si(), 0) +
-                                " Hz has been learnt on this lens: a continuous one is planned until then.");
+    } else if (!unshaped.empty()) {
+        plan.warnings.push_back(unshaped + " A continuous wave is planned until then.");
     }
 }
 
@@ -288,7 +310,7 @@ bool Plan::operator==(const Plan& o) const {
            regions == o.regions && warnings == o.warnings && light == o.light && unlearnt == o.unlearnt;
 }
 
-Result<Plan> plan(const PlanInput& input, const Plan* previous) {
+Result<Plan> plan(const PlanInput& input, const Plan* previous, std::vector<Dioptre>* unlearnt) {
     if (const auto good = checkedInput(input); !good) return tl::unexpected(good.error());
     Plan plan;
     plan.input = input;
@@ -316,6 +338,7 @@ Result<Plan> plan(const PlanInput& input, const Plan* previous) {
 
     SweepPlanner sweep(input, restOf(input), previous);
     auto draft = swept(focus, blurs, sweep, plan);
+    if (unlearnt != nullptr) *unlearnt = sweep.unlearnt();
     if (!draft) return tl::unexpected(draft.error());
     if (const auto fits = fitted(*draft, sweep, plan); !fits) return tl::unexpected(fits.error());
     sortLevels(*draft);
@@ -337,7 +360,7 @@ Result<Plan> plan(const PlanInput& input, const Plan* previous) {
         }
     }
     describeRegions(plan, *draft);
-    warnOfWave(plan);
+    warnOfWave(plan, sweep.unshaped());
     return plan;
 }
 

@@ -136,6 +136,7 @@ struct Plan {
 /// the far side only: blur on the near side rests on an estimate of what the eye cannot accommodate away. Only a level
 /// at the end of the sweep may have a slot below its border of blur (with alpha near 0), and then it has a `problem`.
 /// With `previous`, waves and schedules that cannot have changed are taken from it; the result is the same (a law).
-Result<Plan> plan(const PlanInput& input, const Plan* previous = nullptr);
+/// `unlearnt` is told, also with a refusal, for which levels a shaped wave was asked for and missing.
+Result<Plan> plan(const PlanInput& input, const Plan* previous = nullptr, std::vector<Dioptre>* unlearnt = nullptr);
 
 }  // namespace ilf

@@ -45,8 +45,10 @@ Result<void> checkedProjector(const Rig& rig) {
                                   : "This projector shows " + pictures + " for at least ";
     std::string why = which + inWords(shortestSlot(rig).in(1.0_us), 0) + " us, so that " + std::to_string(slots) +
                       " slots do not fit into a sweep of " + inWords(rig.sweepRate.si(), 1) + " Hz. ";
-    if (most >= 2) return fail(Fault::unsafe, why + "Use at most " + rates(rig, most) + ", or fewer bits.");
-    return fail(Fault::unsafe, why + "Use fewer bits or a slower sweep.");
+    const bool few = rig.kind == ProjectorKind::lightCrafter4500;
+    if (most >= 2)
+        return fail(Fault::unsafe, why + "Use at most " + rates(rig, most) + (few ? ", or fewer bits." : "."));
+    return fail(Fault::unsafe, why + (few ? "Use fewer bits or a slower sweep." : "Use a slower sweep."));
 }
 
 Rig withProjector(Rig rig, ProjectorKind kind, int bits) {

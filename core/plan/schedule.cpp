@@ -110,10 +110,10 @@ private:
         }
         std::ranges::stable_sort(candidates, {}, [&](int slot) { return squareError(l, slot); });
         if (takesWhatThereIs() && !candidates.empty()) {
-            const double best = squareError(l, candidates.front());
-            if (best > std::pow(errorBudget(wish, wave_.rest, rig_).si(), 2) &&
-                best < kWorstRecorded_D * kWorstRecorded_D)
-                return {{candidates.front()}, 1.0};
+            const int nearest = candidates.front();
+            const double best = squareError(l, nearest), budget = errorBudget(wish, wave_.rest, rig_).si();
+            const bool sharp = wish.above && powers_.mean(nearest) <= wish.above->si() && wish.power != wave_.high;
+            if (best > budget * budget && best < kWorstRecorded_D * kWorstRecorded_D && !sharp) return {{nearest}, 1.0};
         }
         const double allowed = std::pow(errorBudget(wish, wave_.rest, rig_).si(), 2);
         double sum = 0.0;

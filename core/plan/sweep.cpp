@@ -17,20 +17,20 @@ SweepPlanner::SweepPlanner(const PlanInput& input, Dioptre rest, const Plan* pre
     if (previous == nullptr) return;
     work_ = previous->work;
     if (!previous->parts || previous->input.lens != input.lens || !sameLight(previous->input.rig, input.rig)) return;
-    parts_ = *previous->parts;
-    unlearnt_ = previous->unlearnt;
+    before_ = *previous->parts;
+    parts_ = {before_.wish, before_.choice, before_.unshaped, {}};
     known_ = true;
 }
 
 WaveChoice SweepPlanner::chosen(const WaveWish& wish) {
-    unlearnt_.clear();
+    parts_.unshaped.clear();
     if (wish.low == wish.high) return {stillWave(wish.rest, wish.low, wish.rate), {}, wish.high};
     if (!input_.lens || input_.rig.waves == WaveMode::idealSine) {
         return {idealSine(wish.rest, wish.low, wish.high, wish.rate, wish.lowAt / wish.rate), {}, input_.rig.lensMax};
     }
     WaveChoice choice = chosenWave(*input_.lens, input_.rig.waves, wish);
     if (choice.wave || input_.rig.waves != WaveMode::shaped) return choice;
-    unlearnt_ = wish.levels;
+    parts_.unshaped = choice.why;
     return chosenWave(*input_.lens, WaveMode::continuous, wish);
 }
 
@@ -42,19 +42,27 @@ const WaveChoice& SweepPlanner::wave(Dioptre low, Dioptre high, std::vector<Diop
         return parts_.choice;
     }
     ++work_.wavesChosen;
-    parts_ = {wish, chosen(wish), {}};
+    parts_.wish = wish;
+    parts_.choice = chosen(wish);
+    parts_.schedules.clear();
+    before_.schedules.clear();
     known_ = true;
     return parts_.choice;
 }
 
 const Schedule& SweepPlanner::schedule(const std::vector<LevelWish>& wishes) {
-    for (const auto& [asked, made] : parts_.schedules) {
-        if (asked != wishes) continue;
-        ++work_.schedulesKept;
-        return made;
+    const auto asked = [&](const auto& known) { return known.first == wishes; };
+    if (const auto made = std::ranges::find_if(parts_.schedules, asked); made != parts_.schedules.end()) {
+        return made->second;
     }
-    ++work_.schedulesMade;
-    parts_.schedules.emplace_back(wishes, scheduled(*parts_.choice.wave, input_.rig, wishes));
+    const auto kept = std::ranges::find_if(before_.schedules, asked);
+    if (kept != before_.schedules.end()) {
+        ++work_.schedulesKept;
+        parts_.schedules.push_back(*kept);
+    } else {
+        ++work_.schedulesMade;
+        parts_.schedules.emplace_back(wishes, scheduled(*parts_.choice.wave, input_.rig, wishes));
+    }
     return parts_.schedules.back().second;
 }
 

@@ -9,9 +9,6 @@
 namespace ilf {
 namespace {
 
-/// More slots than any projector shows in one sweep; keeps a mistyped rate from filling the memory.
-constexpr double kMostSlots = 4096.0;
-
 Result<void> checkedRates(const Rig& rig) {
     if (!isFinite(rig.sweepRate) || rig.sweepRate <= 0.0_Hz || !isFinite(rig.slotRate) || rig.slotRate <= 0.0_Hz) {
         return fail(Fault::outOfRange, "Sweep rate and slot rate must be more than 0 Hz.");
@@ -32,10 +29,6 @@ Result<void> checkedRates(const Rig& rig) {
                                        inWords(rig.sweepRate.si() * whole, 1) +
                                        " Hz, or for a projector of fixed rate a sweep of " +
                                        inWords(rig.slotRate.si() / whole, 1) + " Hz.");
-    }
-    if (whole > kMostSlots) {
-        return fail(Fault::outOfRange,
-                    "One sweep may have at most 4096 slots. Lower the slot rate or raise the sweep rate.");
     }
     return checkedProjector(rig);
 }
@@ -159,11 +152,14 @@ BlurWish blurWish(const PlanInput& input, const PlanObject& object, Dioptre focu
     region.pMin = *pMin;
     const Dioptre margin = std::max(input.alpha, object.strength.value_or(0.0_D));
     if (region.alreadyBlurred && (!object.strength || *pMin + *object.strength <= focusPower)) return {};
-    if (*pMin + margin > input.rig.lensMax) {
+    // Without a strength alpha may give way, down to nothing.
+    const bool reaches = object.strength ? *pMin + margin <= input.rig.lensMax : *pMin < input.rig.lensMax;
+    if (!reaches) {
         if (region.alreadyBlurred) return {};
-        const Dioptre room = input.rig.lensMax - margin - farBorderOffset(input.eye).power;
+        const Dioptre needed = object.strength ? margin : 0.0_D;
+        const Dioptre room = input.rig.lensMax - needed - farBorderOffset(input.eye).power;
         region.problem = quoted(object.name) + " cannot be blurred at " + inWords(object.nearest) + ": it would take " +
-                         inWords(*pMin + margin) + ", and " + lensReach(input.rig) + ".";
+                         inWords(*pMin + needed) + ", and " + lensReach(input.rig) + ".";
         region.help = room > 0.0_D ? "Move it beyond " + inWordsRoundedUp(1.0 / room) + "." : "Lower alpha.";
         if (object.strength && *object.strength > input.alpha && *pMin + input.alpha <= input.rig.lensMax) {
             region.help += " Or lower its strength to " + inWords(input.rig.lensMax - *pMin) + ".";

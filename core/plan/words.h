@@ -15,6 +15,12 @@ inline std::string inWords(double value, int decimals) {
     std::snprintf(text, sizeof text, "%.*f", decimals, value);
     return text;
 }
+/// As few digits as say it: 60 Hz, 62.5 Hz.
+inline std::string inWords(Hertz rate) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.5g Hz", rate.si());
+    return text;
+}
 inline std::string inWords(Dioptre power) { return inWords(power.si(), 2) + " D"; }
 /// Millimetre steps.
 inline std::string inWords(Metre distance) { return inWords(distance.si(), 3) + " m"; }

@@ -143,7 +143,7 @@ TEST_CASE("plan: what an uncorrected focus power blurs already needs no sweep") 
 TEST_CASE("plan: what cannot be blurred is said, with the distance that would do") {
     const Plan p = *plan(input({object("hand", 0.09, Look::blur), object("book", 0.5, Look::focus)}));
     CHECK(says(regionOf(p, "hand").problem, "cannot be blurred"));
-    CHECK(says(regionOf(p, "hand").help, "Move it beyond 0.103 m"));
+    CHECK(says(regionOf(p, "hand").help, "Move it beyond 0.101 m"));
     CHECK_FALSE(p.sweeps());
     CHECK(plan(input({object("hand", 0.103, Look::blur)}))->regions[0].problem.empty());
 }
