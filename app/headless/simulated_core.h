@@ -23,8 +23,7 @@ struct Played {
 /// (steady light, lens at rest) and removed with the object.
 class SimulatedCore {
 public:
-    static Result<std::unique_ptr<SimulatedCore>> start(const std::string& coreProgram,
-                                                        devices::SimulatedLens lens);
+    static Result<std::unique_ptr<SimulatedCore>> start(const std::string& coreProgram, devices::SimulatedLens lens);
     ~SimulatedCore();
     SimulatedCore(const SimulatedCore&) = delete;
     SimulatedCore& operator=(const SimulatedCore&) = delete;

@@ -15,7 +15,8 @@ constexpr std::chrono::seconds kGone{2};
 
 Link::Link(std::string coreProgram, std::vector<std::string> coreArguments, std::filesystem::path runtimeDirectory,
            std::function<void()> onNews)
-    : coreProgram_(std::move(coreProgram)), coreArguments_(std::move(coreArguments)), runtimeDirectory_(std::move(runtimeDirectory)), onNews_(std::move(onNews)),
+    : coreProgram_(std::move(coreProgram)), coreArguments_(std::move(coreArguments)),
+      runtimeDirectory_(std::move(runtimeDirectory)), onNews_(std::move(onNews)),
       thread_([this](std::stop_token stop) { run(stop); }) {}
 
 void Link::send(Sending sending) {

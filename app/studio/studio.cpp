@@ -85,8 +85,7 @@ Result<std::unique_ptr<Studio>> Studio::start(const StudioOptions& options) {
 Studio::Studio(StudioOptions options, std::unique_ptr<Window> window, OpenedFile opened)
     : options_(std::move(options)), window_(std::move(window)), editor_(opened.document), keeper_(&Window::wake),
       camera_(&Window::wake), selector_(&Window::wake), changedAt_(Clock::now()), worker_(options_.lens, &Window::wake),
-      link_(options_.coreProgram, devices::coreArguments(options_.lens), devices::runtimeDirectory(),
-            &Window::wake) {
+      link_(options_.coreProgram, devices::coreArguments(options_.lens), devices::runtimeDirectory(), &Window::wake) {
     if (!options_.resetLayout) ui_ = ui::withLayout(ui_, keeper_.layoutText());
     ui_.mode = startMode(options_.view);
     ui_.recovery = options_.screenshot.empty() ? keeper_.recoveryQuestion() : std::nullopt;

@@ -57,8 +57,8 @@ void Worker::work(Job job) {
     Result<Plan> planned = tl::unexpected(input ? Error{} : input.error());
     if (input) {
         const bool same = last_ && last_->plan.input == *input && (job.dragging || last_->plan.unlearnt.empty());
-        planned = same ? Result<Plan>(last_->plan)
-                       : planner_.plan(*input, last_ ? &last_->plan : nullptr, !job.dragging);
+        planned =
+            same ? Result<Plan>(last_->plan) : planner_.plan(*input, last_ ? &last_->plan : nullptr, !job.dragging);
     }
     done.plan_ms = millisecondsSince(start);
 

@@ -32,8 +32,8 @@ struct Rig {
     Hertz slotRate = 960.0_Hz;        ///< an integer multiple of the sweep rate, or light would flicker below it
     Second projectorDelay = 0.46_ms;  ///< trigger to light (paper, section 4); of this projector in this mode
     ProjectorKind kind = ProjectorKind::highSpeed;
-    int bits = 8;                  ///< of one slot's picture
-    Hertz fastest = 1000.0_Hz;     ///< pictures of that many bits; highSpeed only
+    int bits = 8;               ///< of one slot's picture
+    Hertz fastest = 1000.0_Hz;  ///< pictures of that many bits; highSpeed only
     WaveMode waves = WaveMode::continuous;
     std::string lens;  ///< calibration file; empty: the connected lens's own
     /// Slots serve a level while their rms power error stays below this; for blur, if larger, this share of its power

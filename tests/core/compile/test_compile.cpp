@@ -23,8 +23,7 @@ Document desk(Size projector, std::optional<Homography<ProjectorFrame, CameraFra
 }
 
 bool sameLight(const Compiled& a, const Compiled& b) {
-    return a.program == b.program &&
-           contentHash(a.program) == contentHash(b.program);
+    return a.program == b.program && contentHash(a.program) == contentHash(b.program);
 }
 
 Edit randomEdit() {

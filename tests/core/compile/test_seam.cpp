@@ -78,7 +78,8 @@ TEST_CASE("two blurs of different strength side by side stay even") {
     weak.strength = 0.2_D;
     Region strong = *document.regions[0];
     strong.strength = 0.8_D;
-    document.rig.slotRate = document.rig.fastest = 4800.0_Hz;  // short slots: the sine holds the weaker level in the middle of the sweep too
+    document.rig.slotRate = document.rig.fastest =
+        4800.0_Hz;  // short slots: the sine holds the weaker level in the middle of the sweep too
     document.regions = {Box<Region>(strong), Box<Region>(weak)};
     const Compiled compiled = compiledFrom(document);
     REQUIRE(compiled.plan.levels.size() == 3);
