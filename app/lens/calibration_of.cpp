@@ -86,6 +86,14 @@ Result<void> addRate(LensCalibration& calibration, std::span<const LensRecord> r
     const auto chosen = few ? std::vector<LensRecord>() : forModel(records, calibration.limits);
     if (auto model = fitted(few ? records : chosen, calibration.drift_D_per_C))
         calibration.models.push_back(*std::move(model));
+    // All rates have the one coil; the records of any of them tell how it warms.
+    std::vector<SineRecord> sines;
+    for (const LensRecord& record : records) {
+        if (auto sine = sineRecord(record, record.rate)) sines.push_back(*std::move(sine));
+    }
+    if (!sines.empty()) {
+        calibration.warming_C_per_square = std::max(calibration.warming_C_per_square, warmth(sines).perSquare_C);
+    }
     return {};
 }
 

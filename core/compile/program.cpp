@@ -40,7 +40,8 @@ private:
 
 bool finite(const Waveform& wave) {
     return isFinite(wave.rest) && isFinite(wave.low) && isFinite(wave.high) && isFinite(wave.rate) &&
-           isFinite(wave.power) && isFinite(wave.drive) && std::isfinite(wave.temperature_C);
+           isFinite(wave.power) && isFinite(wave.drive) && std::isfinite(wave.temperature_C) &&
+           std::isfinite(wave.warming_C);
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ std::uint64_t contentHash(const Program& program) {
     Hash hash;
     const Waveform& wave = program.waveform;
     for (const double v : {wave.rest.si(), wave.low.si(), wave.high.si(), wave.rate.si(), program.slotRate.si(),
-                           program.projectorDelay.si(), wave.temperature_C}) {
+                           program.projectorDelay.si(), wave.temperature_C, wave.warming_C}) {
         hash.add(v);
     }
     hash.add(wave.power);

@@ -265,7 +265,11 @@ WaveChoice chosenWave(const LensCalibration& lens, WaveMode mode, const WaveWish
         choice.wave->unit = lens.unit;
         choice.wave->provenance = lens.provenance;
     }
-    if (choice.wave) choice.wave->temperature_C = lens.temperature_C;
+    if (choice.wave) {
+        const double rms = choice.wave->drive.rms();
+        choice.wave->temperature_C = lens.temperature_C;
+        choice.wave->warming_C = lens.warming_C_per_square * rms * rms;
+    }
     return choice;
 }
 

@@ -24,6 +24,7 @@ struct LensCalibration {
     std::vector<ShapedWave> shaped;
     double temperature_C = 30.0;  ///< of the lens now, at rest; records are corrected to it
     double drift_D_per_C = 0.033;
+    double warming_C_per_square = 0.0;  ///< a drive warms the coil by this times its mean square
 };
 
 /// What the plan asks of the lens.

@@ -69,7 +69,7 @@ Warmth warmth(std::span<const SineRecord> records) {
     }
     // A drive never cools the coil.
     const double warming = spread > 0.0 ? std::max(0.0, together / spread) : 0.0;
-    Warmth out{mean_C - warming * meanSquare, {}};
+    Warmth out{mean_C - warming * meanSquare, warming, {}};
     for (const SineRecord& r : records)
         out.warmerThanThat_C.push_back(r.temperature_C - warming * square(r) - out.resting_C);
     return out;

@@ -27,6 +27,7 @@ Result<SineRecord> sineRecord(const LensRecord& record, Hertz rate);
 /// of its drive, by as much again when the wave is played again: that is part of the record. The rest is the room.
 struct Warmth {
     double resting_C = 30.0;               ///< of the lens with no drive, mean over the records
+    double perSquare_C = 0.0;              ///< warmth for each mean square of the drive
     std::vector<double> warmerThanThat_C;  ///< the room during each record, against resting_C
 };
 Warmth warmth(std::span<const SineRecord> records);

@@ -40,7 +40,10 @@ struct Waveform {
     DriveUnit unit = DriveUnit::volt;
     std::int64_t wave = 0;  ///< the record it was taken from (paper, slotAware, shaped); 0: none
     Provenance provenance = Provenance::simulated;
-    double temperature_C = 30.0;  ///< of the lens, for which `power` is predicted
+    double temperature_C = 30.0;  ///< of the lens at rest, for which `power` is predicted
+    /// By how much the drive itself warms the coil in the end; `power` is that of the warm lens. Until it is warm, the
+    /// lens's driver trims the drive by its own static calibration.
+    double warming_C = 0.0;
     bool operator==(const Waveform&) const = default;
 
     bool still() const { return low == high; }

@@ -27,7 +27,7 @@ Offset<wire::Waveform> encode(FlatBufferBuilder& fb, const Waveform& w) {
     const auto drive = encode(fb, w.drive);
     return wire::CreateWaveform(fb, w.rest.si(), w.low.si(), w.high.si(), w.rate.si(), power, drive,
                                 static_cast<wire::DriveUnit>(w.unit), static_cast<wire::WaveMode>(w.mode), w.wave,
-                                static_cast<wire::Provenance>(w.provenance), w.temperature_C);
+                                static_cast<wire::Provenance>(w.provenance), w.temperature_C, w.warming_C);
 }
 
 Offset<flatbuffers::Vector<Offset<wire::Tile>>> encode(FlatBufferBuilder& fb, const std::vector<TileUpdate>& tiles) {
@@ -208,6 +208,7 @@ Result<Waveform> decode(const wire::Waveform& w) {
     wave.wave = w.wave();
     wave.provenance = *provenance;
     wave.temperature_C = w.temperature_C();
+    wave.warming_C = w.warming_C();
     return wave;
 }
 

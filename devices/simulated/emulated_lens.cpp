@@ -32,9 +32,7 @@ std::optional<SimulatedLens> simulatedLensFromWord(std::string_view word) {
     return std::nullopt;
 }
 
-std::vector<std::string> coreArguments(SimulatedLens lens) {
-    return {"--simulated-lens", std::string(word(lens))};
-}
+std::vector<std::string> coreArguments(SimulatedLens lens) { return {"--simulated-lens", std::string(word(lens))}; }
 
 EmulatedLens::EmulatedLens(LensPreset preset, std::int64_t now_ns)
     : preset_(preset), lens_(lensParameters(preset), kRoom_C), startedNs_(now_ns), nowNs_(now_ns) {
@@ -64,7 +62,7 @@ void EmulatedLens::play(const Waveform& wave, std::int64_t now_ns) {
     if (wave.drive.c.empty())
         lens_.hold(wave.low);
     else
-        lens_.play(wave.drive, wave.rate);
+        lens_.play(wave.drive, wave.rate, wave.temperature_C + wave.warming_C);
     wave_ = wave;
     startedNs_ = now_ns;
     ahead_s_ = 0.0;

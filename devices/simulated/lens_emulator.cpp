@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace ilf::devices {
@@ -111,8 +112,10 @@ LensEmulator::Step LensEmulator::stepOf(double length) const {
 
 double LensEmulator::tablePower(double current_A) const { return tableAt(current_A, coil_C_); }
 
-void LensEmulator::play(const Harmonics& drive, Hertz rate) {
+void LensEmulator::play(const Harmonics& drive, Hertz rate, std::optional<double> asAt_C) {
     held_D_.reset();
+    asAt_C_ = asAt_C && std::isfinite(*asAt_C) ? asAt_C : std::nullopt;
+    trimmedFor_C_ = std::numeric_limits<double>::infinity();
     drive_ = isFinite(drive) ? drive : Harmonics{};
     rate_Hz_ = isFinite(rate) && rate > Hertz{} ? rate.si() : 0.0;
     tick_ = -1;
@@ -157,6 +160,21 @@ double LensEmulator::driveAt(double x) const {
     return c[0].real() + real;
 }
 
+double LensEmulator::trimmed(double volt) {
+    if (!asAt_C_) return volt;
+    const double mean_V = drive_.mean();
+    if (std::abs(coil_C_ - trimmedFor_C_) > 0.01) {
+        const double mean_A = std::clamp(p_.amplifier_A_per_V * mean_V, -p_.clip_A, p_.clip_A);
+        trim_V_ = (currentFor(tableAt(mean_A, *asAt_C_)) - mean_A) / p_.amplifier_A_per_V;
+        const auto slope = [&](double temperature_C) {
+            return tableAt(mean_A + 0.01, temperature_C) - tableAt(mean_A - 0.01, temperature_C);
+        };
+        swing_ = slope(*asAt_C_) / slope(coil_C_);
+        trimmedFor_C_ = coil_C_;
+    }
+    return mean_V + swing_ * (volt - mean_V) + trim_V_;
+}
+
 void LensEmulator::nextVoltage() {
     ++tick_;
     const double t = static_cast<double>(tick_) / p_.dacRate_Hz;
@@ -172,7 +190,7 @@ void LensEmulator::nextVoltage() {
         volt = current / p_.amplifier_A_per_V;
     } else {
         const double x = t * rate_Hz_;
-        volt = driveAt(x - std::floor(x));
+        volt = trimmed(driveAt(x - std::floor(x)));
     }
     if (p_.dacStep_V > 0.0) volt = p_.dacStep_V * std::round(volt / p_.dacStep_V);
     const double wanted = p_.amplifier_A_per_V * volt;

@@ -43,8 +43,10 @@ public:
     explicit LensEmulator(const LensParameters& parameters = lensParameters(LensPreset::datasheet),
                           double ambient_C = 30.0);
 
-    /// From now on plays `drive` in volts at `rate`, x = 0 now. Beyond the clip the amplifier clips.
-    void play(const Harmonics& drive, Hertz rate);
+    /// From now on plays `drive` in volts at `rate`, x = 0 now. Beyond the clip the amplifier clips. With `asAt_C` the
+    /// driver trims mean and swing of the drive as its own static calibration knows how, so that the power is that of a
+    /// coil this warm; without, the drive is played as it is.
+    void play(const Harmonics& drive, Hertz rate, std::optional<double> asAt_C = {});
     /// Holds the lens at a power as its driver's own calibration knows how (static, temperature-compensated). A lens
     /// with a loop is led there in a swing that dies out within 0.1 s, so that it forgets where it came from.
     void hold(Dioptre power);
@@ -73,6 +75,7 @@ private:
     Step stepOf(double length) const;
     void step(const Step& step);
     void nextVoltage();
+    double trimmed(double volt);
     double driveAt(double x) const;
     double tablePower(double current_A) const;
     double currentFor(double power) const;
@@ -85,6 +88,9 @@ private:
     Harmonics drive_;
     double rate_Hz_ = 0.0;
     std::optional<double> held_D_;
+    std::optional<double> asAt_C_;  ///< trimmed for a coil this warm
+    double trim_V_ = 0.0, swing_ = 1.0,
+           trimmedFor_C_ = 0.0;                     ///< the last: the coil temperature they were worked out for
     double heldCurrent_A_ = 0.0, heldFor_C_ = 0.0;  ///< the coil temperature the current was worked out for
     double ambient_C_, coil_C_;
     double target_A_ = 0.0, current_A_ = 0.0;

@@ -22,7 +22,8 @@ std::string written(Dioptre power) {
 
 bool canBePlayed(const Waveform& w) {
     return isFinite(w.rest) && isFinite(w.low) && isFinite(w.high) && isFinite(w.rate) && w.rate > 0.0_Hz &&
-           w.low <= w.high && isFinite(w.power) && isFinite(w.drive) && std::isfinite(w.temperature_C);
+           w.low <= w.high && isFinite(w.power) && isFinite(w.drive) && std::isfinite(w.temperature_C) &&
+           std::isfinite(w.warming_C);
 }
 
 Waveform resting(const Waveform& w) { return stillWave(w.rest, w.rest, w.rate); }

@@ -1,5 +1,6 @@
 #include "devices/simulated/simulated_stage.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -77,9 +78,11 @@ Result<void> SimulatedStage::withinBudgets() const {
         std::snprintf(text.data(), text.size(), format, value);
         return std::string(text.data());
     };
-    const double off_C = state_->lensTemperature_C - told_->temperature_C;
+    // Between cold and as warm as its own drive makes it, the lens is where the plan has it.
+    const double coldest_C = told_->temperature_C, warmest_C = told_->temperature_C + told_->warming_C;
+    const double now_C = state_->lensTemperature_C, off_C = now_C - std::clamp(now_C, coldest_C, warmest_C);
     if (std::abs(off_C) > kTemperatureBudget_C) {
-        return fail(Fault::device, "The lens is at " + number("%.1f C", state_->lensTemperature_C) + ", " +
+        return fail(Fault::device, "The lens is at " + number("%.1f C", now_C) + ", " +
                                        number("%.1f C", std::abs(off_C)) + (off_C > 0.0 ? " above" : " below") +
                                        " what its wave was planned for; let it come back, or plan again at this "
                                        "temperature.");

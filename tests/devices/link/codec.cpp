@@ -33,6 +33,7 @@ Waveform anyWave() {
     wave.wave = *rc::gen::arbitrary<std::int64_t>();
     wave.provenance = *rc::gen::element(Provenance::simulated, Provenance::measured, Provenance::imported);
     wave.temperature_C = anyNumber();
+    wave.warming_C = anyNumber();
     return wave;
 }
 LightMode anyLight() { return *rc::gen::element(LightMode::steady, LightMode::slotted); }
