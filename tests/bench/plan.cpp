@@ -88,7 +88,7 @@ void afterSmallEdit(benchmark::State& state) {
         benchmark::DoNotOptimize(last = std::move(next));
     }
     char text[96];
-    std::snprintf(text, sizeof text, "%d plans, %d waves chosen, %d schedules made",
+    std::snprintf(text, sizeof text, "%d plans; %d waves chosen; %d schedules made",
                   static_cast<int>(last.work.plans - 1), static_cast<int>(last.work.wavesChosen - chosen),
                   static_cast<int>(last.work.schedulesMade - made));
     state.SetLabel(text);

@@ -41,7 +41,7 @@ tail -n +2 "$out/results.csv" | sed 's/"//g' |
     awk -F, '{ gsub("_", " ", $2); printf "\"%s: %s\" %s %s %s\n", $1, $2, $3, $4 == "" ? $3 : $4, $5 == "" ? "NaN" : $5 }' \
         > "$work/plot.dat"
 gnuplot <<EOF
-set terminal pngcairo size 1100,700 font "Inter,10" background "#ffffff"
+set terminal pngcairo size 1100,1250 font "Inter,10" background "#ffffff"
 set output "$out/results.png"
 set logscale x
 set xlabel "time, microseconds: p50, a bar to p95, in grey the whole frame that was skipped"
