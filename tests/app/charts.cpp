@@ -12,28 +12,12 @@
 #include "app/plots/draw.h"
 #include "app/plots/optics_charts.h"
 #include "projects/pictures.h"
+#include "tests/projects/folder.h"
 
 using namespace ilf;
 using namespace ilf::app;
 
 namespace {
-
-struct Folder {
-    std::filesystem::path path;
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "charts-XXXXXX").string();
-        path = mkdtemp(name.data());
-    }
-    ~Folder() {
-        std::error_code error;
-        std::filesystem::remove_all(path, error);
-    }
-};
-
-std::string contentOf(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Share of pixels of about that colour.
 double share(const Picture& picture, int red, int green, int blue) {
@@ -103,28 +87,28 @@ TEST_CASE("charts: a PNG shows the curve in its colour and an SVG is one") {
                       {{"rising", Mark::line, 0, {{0.0, 0.0}, {1.0, 1.0}}}}};
     Chart empty = chart;
     empty.curves.front().points.clear();
-    REQUIRE(writeChart(folder.path / "a.png", chart));
-    REQUIRE(writeChart(folder.path / "b.png", empty));
-    const auto drawn = projects::readPicture(folder.path / "a.png"),
-               bare = projects::readPicture(folder.path / "b.png");
+    REQUIRE(writeChart(folder.path() / "a.png", chart));
+    REQUIRE(writeChart(folder.path() / "b.png", empty));
+    const auto drawn = projects::readPicture(folder.path() / "a.png"),
+               bare = projects::readPicture(folder.path() / "b.png");
     REQUIRE(drawn);
     REQUIRE(bare);
     CHECK(drawn->picture.size() == Size{1800, 1120});
     const double line = share(drawn->picture, 0, 115, 179), swatch = share(bare->picture, 0, 115, 179);
     CHECK(line > swatch + 0.001);
     CHECK(share(bare->picture, 255, 255, 255) > 0.9);
-    REQUIRE(writeChart(folder.path / "c.svg", chart));
-    CHECK(contentOf(folder.path / "c.svg").find("<svg") != std::string::npos);
+    REQUIRE(writeChart(folder.path() / "c.svg", chart));
+    CHECK(contentOf(folder.path() / "c.svg").find("<svg") != std::string::npos);
 }
 
 TEST_CASE("charts: refusals leave no file") {
     const Folder folder;
     const Chart chart = *opticsChart("blur");
-    CHECK(writeChart(folder.path / "a.jpg", chart).error().what.find(".png") != std::string::npos);
-    CHECK_FALSE(writeChart(folder.path / "missing" / "a.png", chart));
-    CHECK(std::filesystem::is_empty(folder.path));
-    CHECK(opticsPlotCommand({"pupil", (folder.path / "a.png").string()}) == kFailed);
-    CHECK(opticsPlotCommand({"blur", (folder.path / "a.gif").string()}) == kFailed);
-    REQUIRE(opticsPlotCommand({"blur", (folder.path / "a.svg").string()}) == kDone);
-    CHECK(std::filesystem::file_size(folder.path / "a.svg") > 5000);
+    CHECK(writeChart(folder.path() / "a.jpg", chart).error().what.find(".png") != std::string::npos);
+    CHECK_FALSE(writeChart(folder.path() / "missing" / "a.png", chart));
+    CHECK(std::filesystem::is_empty(folder.path()));
+    CHECK(opticsPlotCommand({"pupil", (folder.path() / "a.png").string()}) == kFailed);
+    CHECK(opticsPlotCommand({"blur", (folder.path() / "a.gif").string()}) == kFailed);
+    REQUIRE(opticsPlotCommand({"blur", (folder.path() / "a.svg").string()}) == kDone);
+    CHECK(std::filesystem::file_size(folder.path() / "a.svg") > 5000);
 }

@@ -13,23 +13,12 @@
 #include "app/evaluate/report.h"
 #include "app/exit_code.h"
 #include "app/headless/evaluate_command.h"
+#include "tests/projects/folder.h"
 
 using namespace ilf;
 using namespace ilf::app;
 
 namespace {
-
-struct Folder {
-    std::filesystem::path path;
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "evaluate-XXXXXX").string();
-        path = mkdtemp(name.data());
-    }
-    ~Folder() {
-        std::error_code error;
-        std::filesystem::remove_all(path, error);
-    }
-};
 
 /// Nine bright discs on black, of `radius` and a third of the picture apart.
 Image<float> discs(int size, double radius) {
@@ -154,11 +143,11 @@ TEST_CASE("evaluate: a quick run finds what is known") {
         if (one.texture == "white sheet") CHECK(std::abs(one.after) < 0.06);
     }
 
-    REQUIRE(writeReport(folder.path / "report", *evaluation));
+    REQUIRE(writeReport(folder.path() / "report", *evaluation));
     for (const char* name :
          {"report.md", "report.json", "blur-size.png", "blur-difference.png", "blur-range.png", "dots.png",
           "objects-1.png", "objects-2.png", "seams-document.png", "seams-picture.png", "seams-white-sheet.png"})
-        CHECK(std::filesystem::file_size(folder.path / "report" / name) > 500);
+        CHECK(std::filesystem::file_size(folder.path() / "report" / name) > 500);
     const std::string text = printed(*evaluation);
     CHECK(text.find("simulated") != std::string::npos);
     CHECK(text.find("1.4 +- 1.8 px") != std::string::npos);
@@ -166,6 +155,6 @@ TEST_CASE("evaluate: a quick run finds what is known") {
 
 TEST_CASE("evaluate: a folder that cannot be made is refused before any work") {
     const Folder folder;
-    std::ofstream(folder.path / "file") << "x";
-    CHECK(evaluateCommand({(folder.path / "file" / "report").string(), true}) == kFailed);
+    std::ofstream(folder.path() / "file") << "x";
+    CHECK(evaluateCommand({(folder.path() / "file" / "report").string(), true}) == kFailed);
 }

@@ -12,27 +12,12 @@
 #include "app/exit_code.h"
 #include "tests/core/optics/golden_file.h"
 #include "tests/core/optics/golden_rows.h"
+#include "tests/projects/folder.h"
 
 using namespace ilf;
 using namespace ilf::app;
 
 namespace {
-
-struct Folder {
-    std::filesystem::path path;
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "optics-XXXXXX").string();
-        path = mkdtemp(name.data());
-    }
-    ~Folder() {
-        std::error_code error;
-        std::filesystem::remove_all(path, error);
-    }
-    std::string write(const char* name, const std::string& text) const {
-        std::ofstream(path / name) << text;
-        return (path / name).string();
-    }
-};
 
 std::string contentOf(const std::string& file) {
     std::ifstream in(file);
@@ -43,8 +28,8 @@ std::string contentOf(const std::string& file) {
 
 TEST_CASE("optics eval: golden inputs give golden outputs, bit for bit but for the angles") {
     const Folder folder;
-    const std::string in = folder.write("in.csv", std::string("# a comment\n") + kGoldenRows);
-    const std::string out = (folder.path / "out.csv").string();
+    const std::string in = folder.put("in.csv", std::string("# a comment\n") + kGoldenRows);
+    const std::string out = (folder.path() / "out.csv").string();
     REQUIRE(opticsEvalCommand({"precise", in, out}) == kDone);
     std::istringstream golden(kGoldenRows), written(contentOf(out));
     std::string header;
@@ -69,10 +54,10 @@ TEST_CASE("optics eval: golden inputs give golden outputs, bit for bit but for t
 
 TEST_CASE("optics eval: infinity, the pole and the fast paths are written, and none of it is NaN") {
     const Folder folder;
-    const std::string in = folder.write("in.csv", "w,P,e,r,Pe,De,Da,x1\n"
-                                                  "inf,1.5,0x1p-5,0x1p-6,64,0x1p-8,0x1p-18,0.0625\n"
-                                                  "1,2,1,0x1p-6,64,0x1p-8,0x1p-18,0.0625\n");
-    const std::string out = (folder.path / "out.csv").string();
+    const std::string in = folder.put("in.csv", "w,P,e,r,Pe,De,Da,x1\n"
+                                                "inf,1.5,0x1p-5,0x1p-6,64,0x1p-8,0x1p-18,0.0625\n"
+                                                "1,2,1,0x1p-6,64,0x1p-8,0x1p-18,0.0625\n");
+    const std::string out = (folder.path() / "out.csv").string();
     for (const char* path : {"precise", "fast64", "fast32"}) {
         REQUIRE(opticsEvalCommand({path, in, out}) == kDone);
         const std::string text = contentOf(out);
@@ -84,13 +69,13 @@ TEST_CASE("optics eval: infinity, the pole and the fast paths are written, and n
 
 TEST_CASE("optics eval: a bad file or path is refused and nothing is written") {
     const Folder folder;
-    const std::string out = (folder.path / "out.csv").string();
-    const std::string noColumn = folder.write("a.csv", "w,P,e,r,Pe,De,Da\n1,1,1,1,1,1,1\n");
-    const std::string noNumber = folder.write("b.csv", "w,P,e,r,Pe,De,Da,x1\n1,two,1,1,1,1,1,1\n");
+    const std::string out = (folder.path() / "out.csv").string();
+    const std::string noColumn = folder.put("a.csv", "w,P,e,r,Pe,De,Da\n1,1,1,1,1,1,1\n");
+    const std::string noNumber = folder.put("b.csv", "w,P,e,r,Pe,De,Da,x1\n1,two,1,1,1,1,1,1\n");
     CHECK(opticsEvalCommand({"precise", noColumn, out}) == kFailed);
     CHECK(opticsEvalCommand({"precise", noNumber, out}) == kFailed);
-    CHECK(opticsEvalCommand({"precise", folder.write("c.csv", ""), out}) == kFailed);
-    CHECK(opticsEvalCommand({"precise", (folder.path / "none.csv").string(), out}) == kFailed);
+    CHECK(opticsEvalCommand({"precise", folder.put("c.csv", ""), out}) == kFailed);
+    CHECK(opticsEvalCommand({"precise", (folder.path() / "none.csv").string(), out}) == kFailed);
     CHECK(opticsEvalCommand({"exactly", noNumber, out}) == kFailed);
     CHECK(opticsTableCommand({"far", false, false}) == kFailed);
     CHECK_FALSE(std::filesystem::exists(out));
