@@ -1,6 +1,7 @@
 // The machine a project plays on: projector raster, rates, delays, lens limits and where its light lands.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -41,6 +42,8 @@ struct Rig {
     Dioptre powerBudget = 0.1_D;
     double blurShare = 0.1;
     RoomLight room;
+    /// Dominant wavelengths of its red, green and blue light; absent: not known, and the view keeps colours together.
+    std::optional<std::array<Metre, 3>> primaries;
     Dioptre lensMin = -10.0_D;
     Dioptre lensMax = 10.0_D;
     /// Where a camera pixel lands on the projector's raster; absent: the picture fitted into the raster.

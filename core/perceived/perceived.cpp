@@ -4,31 +4,28 @@
 #include <cmath>
 #include <limits>
 
-#include "core/perceived/composite.h"
-#include "core/perceived/setting.h"
+#include "core/perceived/surfaces.h"
+#include "core/perceived/view_engine.h"
 
 namespace ilf {
 
+std::string_view word(Rung rung) {
+    switch (rung) {
+    case Rung::dragging:
+        return "while dragging";
+    case Rung::rest:
+        return "at rest";
+    case Rung::idle:
+        return "refined";
+    }
+    return "";
+}
+
 Result<Radiance> perceived(const Document& document, const Plan& plan, const Program& program,
                            const ViewRequest& request) {
-    const auto setting = view::setting(document, plan, program, request);
-    if (!setting) return tl::unexpected(setting.error());
-    if (setting->plain) return view::albedo(document, setting->scale);
-
-    const Size size = setting->scale.size;
-    const PixelRect<view::ViewFrame> window{0, 0, size.width, size.height};
-    const Radiance albedo = view::albedo(document, setting->scale);
-    const auto surfaces = view::surfaces(layers(document, plan, request.scale), window);
-    view::Block seen(size.width, size.height, albedo.channels());
-    for (const view::Light& light : view::lights(document, plan, program, setting->scale, window)) {
-        std::vector<view::Appearance> looks;
-        for (const view::Surface& surface : surfaces) {
-            looks.push_back(view::appearance(document, plan, request.eye, setting->attention, setting->scale, window,
-                                             surface.distance, light.power));
-        }
-        view::addLight(seen, surfaces, looks, albedo, light);
-    }
-    return Radiance(size, albedo.channels(), std::move(seen.values));
+    const auto view = ViewEngine().see(document, plan, program, request);
+    if (!view) return tl::unexpected(view.error());
+    return view->radiance();
 }
 
 Radiance plainView(const Document& document, double scale) {

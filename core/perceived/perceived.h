@@ -1,7 +1,9 @@
 // The perceived view: what one eye sees of the scene while a program plays.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "core/base/image.h"
 #include "core/compile/program.h"
@@ -10,7 +12,18 @@
 
 namespace ilf {
 
-/// Whose view, and how large. The picture is the view from the pupil through the lens at rest.
+/// How carefully a view is worked out: what a frame of a drag may cost, one at rest, one that nobody waits for.
+enum class Rung : std::uint8_t { dragging, rest, idle };
+std::string_view word(Rung rung);  ///< "while dragging", "at rest", "refined"
+
+/// Where the eye is turned while it attends what it attends.
+enum class Gaze : std::uint8_t {
+    ahead,    ///< along the lens's axis
+    fixed,    ///< to ViewRequest::gazeAt, and stays: its pupil moves aside, and the centre of magnification with it
+    follows,  ///< to every point in turn: magnified as seen from the eye's centre of rotation
+};
+
+/// Whose view, how large and how carefully. The picture is the view from the pupil through the lens at rest.
 struct ViewRequest {
     Eye eye = Eye::left;
     /// The eye accommodates to what it looks at: a region's id; none: to the nearest focused object (or stays relaxed
@@ -18,6 +31,13 @@ struct ViewRequest {
     std::optional<RegionId> attending;
     /// Output pixels per picture pixel, 0 < scale <= 1. Blur and magnification shrink along.
     double scale = 1.0;
+    Rung rung = Rung::rest;
+    Gaze gaze = Gaze::ahead;
+    Point<CameraFrame> gazeAt{};  ///< of Gaze::fixed
+    /// Red, green and blue of the rig's primaries each in the focus the eye has for them (an eye's, not a camera's).
+    bool chromatic = false;
+    /// What lies beyond the lens's rim is seen past it: sharp, in steady light. An eye's, not a camera's.
+    bool lensField = false;
     bool operator==(const ViewRequest&) const = default;
 };
 
@@ -33,9 +53,11 @@ struct SceneLayer {
 std::vector<SceneLayer> layers(const Document& document, const Plan& plan, double scale);
 
 /// Radiance that reaches the eye, linear RGB at the request's scale, normalised so that a scene in steady light looks
-/// like its picture: per slot and layer light * albedo, blurred by the disc of that layer's defocus, magnified about
-/// the eye's optical centre, hidden by nearer layers, summed over the sweep. Radiance is conserved (no 1/s^2).
-/// Light comes from the program's own slot images through the registration, not from the document's masks.
+/// like its picture: per light and layer light * albedo, blurred by the disc of that layer's defocus, magnified about
+/// the eye's optical centre, hidden by nearer layers through the pupil, summed over the lens's powers while each level
+/// is lit. Radiance is conserved (no 1/s^2). Light comes from the program's own images through the registration, not
+/// from the document's masks; the room's ambient light falls on all of it during the whole sweep. One frame of a
+/// `ViewEngine` that has seen nothing before.
 Result<Radiance> perceived(const Document& document, const Plan& plan, const Program& program,
                            const ViewRequest& request);
 
