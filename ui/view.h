@@ -10,6 +10,7 @@
 
 #include "core/compile/compile.h"
 #include "core/document/document.h"
+#include "core/perceived/seam_border.h"
 #include "core/perceived/seam_profile.h"
 #include "core/plan/plan.h"
 #include "core/plan/report.h"
@@ -62,7 +63,8 @@ struct Computed {
     std::string planError;  ///< the sentence, when there is no plan
     const Compiled* compiled = nullptr;
     std::optional<SeamProfile> seam;
-    std::shared_ptr<const PlanReport> report;  ///< none before the first plan
+    std::shared_ptr<const std::vector<BorderSeam>> seams;  ///< along whole borders, worst first; none until at rest
+    std::shared_ptr<const PlanReport> report;              ///< none before the first plan
     double plan_ms = 0.0, compile_ms = 0.0, view_ms = 0.0;
     std::string viewRung;  ///< "dragging", "at rest": what quality the perceived view has
     CompileCounters counters;
