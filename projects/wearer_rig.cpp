@@ -1,6 +1,8 @@
 #include "projects/wearer_rig.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "core/document/edit.h"
 #include "projects/safe_file.h"
@@ -36,6 +38,14 @@ Json written(const CameraObserver& camera, Json json) {
 CameraObserver cameraFrom(JsonReader reader) {
     return {Metre::fromSi(reader.number("focal_length_m")), reader.number("f_number"),
             Metre::fromSi(reader.number("focus_distance_m")), Metre::fromSi(reader.number("pixel_pitch_m"))};
+}
+
+/// Red, green and blue, to a millionth: so a file read and written again says the same.
+std::vector<double> nanometres(const std::array<Metre, 3>& wavelengths) {
+    std::vector<double> nm;
+    for (const Metre& length : wavelengths)
+        nm.push_back(std::round(length.si() * 1e15) / 1e6);
+    return nm;
 }
 
 /// The value, unless reading it or checking its numbers found something wrong.
@@ -141,6 +151,11 @@ Json written(const Rig& rig, Json json) {
     room.set("lit_area_m2", rig.room.litArea_m2);
     room.set("ambient_lx", rig.room.ambient_lx);
     json.set("room", room);
+    if (rig.primaries) {
+        json.set("primaries_nm", nanometres(*rig.primaries));
+    } else {
+        json.erase("primaries_nm");
+    }
     if (rig.registration) {
         json.set("projector_from_camera", std::vector<double>(rig.registration->m.begin(), rig.registration->m.end()));
     } else {
@@ -180,6 +195,10 @@ Result<Rig> rigFrom(const Json& json, const std::string& file) {
     if (reader.has("room")) {
         JsonReader room = reader.object("room");
         rig.room = {room.number("projector_lm"), room.number("lit_area_m2"), room.number("ambient_lx")};
+    }
+    if (reader.has("primaries_nm")) {
+        const std::vector<double> nm = reader.numbers("primaries_nm", 3);
+        rig.primaries = {Metre::fromSi(nm[0] / 1e9), Metre::fromSi(nm[1] / 1e9), Metre::fromSi(nm[2] / 1e9)};
     }
     if (reader.has("projector_from_camera")) {
         const std::vector<double> m = reader.numbers("projector_from_camera", 9);

@@ -215,6 +215,23 @@ Result<void> checked(const Rig& rig) {
         return fail(Fault::outOfRange, "The lowest lens power, " + spokenNumber(rig.lensMin.si()) +
                                            " D, must be below the highest, " + spokenNumber(rig.lensMax.si()) + " D.");
     }
+    if (rig.primaries) {
+        const auto& [red, green, blue] = *rig.primaries;
+        const auto visible = [](const char* spoken, Metre length) {
+            return inRange(spoken, length.si() * 1e9, 380.0, 780.0, "nm", "nothing else is seen");
+        };
+        if (auto ok = firstRefusal({visible("the wavelength of the red light", red),
+                                    visible("the wavelength of the green light", green),
+                                    visible("the wavelength of the blue light", blue)});
+            !ok) {
+            return ok;
+        }
+        if (!(red > green && green > blue)) {
+            return fail(Fault::outOfRange, "The projector's wavelengths must fall from red over green to blue, not " +
+                                               spokenNumber(red.si() * 1e9) + ", " + spokenNumber(green.si() * 1e9) +
+                                               " and " + spokenNumber(blue.si() * 1e9) + " nm: check their order.");
+        }
+    }
     if (rig.registration) {
         double size = 1.0;  // of the three rows: what the determinant of a well-conditioned map is compared with
         for (std::size_t row = 0; row < 3; ++row) {

@@ -1,0 +1,43 @@
+#include "projects/picture_png_texts.h"
+
+#include <cassert>
+#include <cstdint>
+
+namespace ilf::projects {
+namespace {
+
+std::string big(std::uint32_t value) {
+    std::string bytes(4, '\0');
+    for (std::size_t i = 0; i < 4; ++i)
+        bytes[i] = static_cast<char>(value >> (24 - 8 * i));
+    return bytes;
+}
+
+/// CRC-32 as PNG has it (ISO 3309), bit by bit: texts are short.
+std::uint32_t crc(const std::string& bytes) {
+    std::uint32_t value = 0xffffffffU;
+    for (const char c : bytes) {
+        value ^= static_cast<unsigned char>(c);
+        for (int bit = 0; bit < 8; ++bit)
+            value = (value >> 1U) ^ ((value & 1U) != 0 ? 0xedb88320U : 0U);
+    }
+    return ~value;
+}
+
+std::string chunk(const std::string& type, const std::string& content) {
+    return big(static_cast<std::uint32_t>(content.size())) + type + content + big(crc(type + content));
+}
+
+}  // namespace
+
+std::string withFacts(const std::string& png, const PictureFacts& facts, bool srgb) {
+    constexpr std::size_t kHeader = 33;  // signature and IHDR, which must come first
+    assert(png.size() > kHeader);
+    std::string added;
+    if (srgb) added += chunk("sRGB", std::string(1, '\0'));  // perceptual
+    for (const auto& [key, value] : facts)
+        added += chunk("tEXt", key + '\0' + value);
+    return png.substr(0, kHeader) + added + png.substr(kHeader);
+}
+
+}  // namespace ilf::projects
