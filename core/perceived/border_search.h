@@ -1,4 +1,4 @@
-// Finding the border of a blurred region nearest to the cursor.
+// Finding borders between light that is displaced and light that is not: all of them, or the nearest to the cursor.
 #pragma once
 
 #include <optional>
@@ -14,6 +14,9 @@ struct Lit {
     const Region* region;
     std::optional<int> level;
     bool blurred = false;
+    /// The power at which its light is displaced most: its level's where it is blurred; where it is neutral, so lit in
+    /// all lit slots, the strongest blur level's. None: its light stays where it is.
+    std::optional<Dioptre> displaced;
 };
 
 /// The regions of a document, topmost first, the background last. Valid while the `compiled` it was made from lives.
@@ -22,6 +25,7 @@ public:
     explicit LitRegions(const Compiled& compiled);
 
     const std::vector<Lit>& all() const { return all_; }
+    Size size() const { return size_; }
     bool inside(int x, int y) const { return x >= 0 && y >= 0 && x < size_.width && y < size_.height; }
     /// The topmost that covers at least half of a pixel: an index into all().
     std::size_t owner(int x, int y) const;
@@ -34,17 +38,26 @@ private:
     std::vector<Lit> all_;
 };
 
-/// Two pixels side by side: one blurred, one lit at another level.
+/// Two pixels side by side, lit at different levels, the light of one displaced at least as much as the other's.
 struct Crossing {
     std::size_t blurred = 0, other = 0;  ///< indices into all()
-    int x = 0, y = 0;                    ///< the blurred pixel
+    int x = 0, y = 0;                    ///< the displaced pixel
     int dx = 0, dy = 0;                  ///< towards the other
+
+    Point<CameraFrame> at() const { return {x + 0.5 + 0.5 * dx, y + 0.5 + 0.5 * dy}; }
 };
+
+/// All crossings between two regions; each pair of regions once.
+struct WholeBorder {
+    std::size_t blurred = 0, other = 0;
+    std::vector<Crossing> crossings;  ///< row by row
+};
+std::vector<WholeBorder> wholeBorders(const LitRegions& regions);
 
 /// Nothing within `within` pixels of the cursor: nothing.
 std::optional<Crossing> nearestCrossing(const LitRegions& regions, Point<CameraFrame> cursor, double within);
 
-/// Unit normal of the border, from the blurred side outwards: against the slope of its share around the crossing.
+/// Unit normal of the border, from the displaced side outwards: against the slope of its share around the crossing.
 std::pair<double, double> normalAt(const LitRegions& regions, const Crossing& crossing);
 
 }  // namespace ilf::view

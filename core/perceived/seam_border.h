@@ -46,17 +46,6 @@ struct SeamUnderError {
     bool counts = true;  ///< in `combined`; larger ones of the same kind are only shown
 };
 
-/// The feather that would hide a border: W = clamp(shift / 1 % - 2 R, 2 R, a third of the region) (scheduling 4.3).
-struct HidingWidth {
-    Metre shift;           ///< light of the two levels apart, along the normal: two axes, and all counted errors
-    Metre axesShift;       ///< the part of it that two lens axes cause: each eye is half their distance off the middle
-    Metre blurRadius;      ///< R on the surface
-    Metre asked;           ///< shift / 1 % - 2 R, before clamping
-    Metre width;           ///< W
-    bool clamped = false;  ///< the region has no room for what is asked
-    double left = 0.0;     ///< contrast that W leaves: shift / W
-};
-
 struct BorderSeam {
     RegionId blurred, other;
     bool depthStep = false;              ///< one surface stands before the other along most of it: not blended

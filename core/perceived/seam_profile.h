@@ -28,10 +28,10 @@ struct SeamProfile {
     bool depthStep = false;  ///< one surface stands before the other here: not blended, what shows is its outline
 };
 
-/// The profile across the border of a blurred region (towards a region lit at another level) nearest to `cursor` within
-/// `withinPixels`; nothing when there is no such border. The sign of the seam comes from the geometry (see scheduling
-/// F5), never from the paper's sentence. Worked out on a patch around the border, for an even white surface and an eye
-/// that looks at the blurred one; what is beyond the picture is dark, so the profile ends at its edge.
+/// The profile across the border of a blurred or neutral region (towards a region lit at another level) nearest to
+/// `cursor` within `withinPixels`; nothing when there is no such border. The sign of the seam comes from the geometry
+/// (see scheduling F5), never from the paper's sentence. Worked out on a patch around the border, for an even white
+/// surface and an eye that looks at the blurred one; ends at the picture's edge.
 std::optional<SeamProfile> seamProfile(const Compiled& compiled, Point<CameraFrame> cursor, double withinPixels);
 
 }  // namespace ilf

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/quantity.h"
+#include "core/optics/eye.h"
 
 namespace ilf {
 
@@ -41,9 +42,21 @@ struct SeamErrorCase {
     std::vector<Misplaced> eyes;
     bool counts = true;
 };
-struct EyeOptics;
 std::vector<SeamErrorCase> errorCases(const SeamErrors& errors, const EyeOptics& eye, Metre distance, double nx,
                                       double ny);
+
+/// The feather that hides a seam: W = clamp(shift / 1 % - 2 R, 2 R, a third of the region) (scheduling 4.3).
+struct HidingWidth {
+    Metre shift;           ///< light of the two levels apart, along the normal: two axes, and all counted errors
+    Metre axesShift;       ///< the part of it that two lens axes cause: each eye is half their distance off the middle
+    Metre blurRadius;      ///< R on the surface
+    Metre asked;           ///< shift / 1 % - 2 R, before clamping
+    Metre width;           ///< W
+    bool clamped = false;  ///< the region has no room for what is asked
+    double left = 0.0;     ///< contrast that W leaves: shift / W
+};
+/// `region`: its extent across the surface.
+HidingWidth hidingWidth(Metre axesShift, Metre errorShift, Metre blurRadius, Metre region);
 
 /// The closed form's contrast where light of the two levels is `shift` apart and the feather `width` wide:
 /// shift / width, at most 1.  The least that any blending could leave: shift / (width + 2 R) (scheduling 4.3).
