@@ -1,11 +1,10 @@
 // The selected region: look, strength, distance, and what the plan makes of them.
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "ui/canvas.h"
 #include "ui/icons.h"
 #include "ui/new_region.h"
+#include "ui/prediction_card.h"
 #include "ui/widgets.h"
 
 namespace ilf::ui {
@@ -83,19 +82,8 @@ void distanceFields(Panel& p, const Region& region) {
     }
 }
 
-std::string blurText(const Panel& p, Metre diameter) {
-    // On the retina of a reduced eye: angle = diameter / d_er, and dioptres of defocus = angle / pupil.
-    const Wearer& wearer = p.document().wearer;
-    const double radians = diameter * wearer.eyePower;
-    const double arcmin = radians * 60.0 * 180.0 / std::numbers::pi;
-    std::string text = std::to_string(static_cast<int>(std::lround(arcmin))) + "\u2032";
-    if (wearer.pupil > 0.0_m) text += ", " + formatted(Dioptre::fromSi(radians / wearer.pupil.si()));
-    return text;
-}
-
 void derived(Panel& p, const RegionPlan& planned) {
     const Plan& plan = *p.plan();
-    ImGui::Dummy({1, p.px(2)});
     if (planned.look == Look::blur) {
         std::string least = planned.pMin ? formatted(*planned.pMin) : "blurred at rest";
         if (plan.driver == planned.id)
@@ -104,20 +92,9 @@ void derived(Panel& p, const RegionPlan& planned) {
     }
     if (planned.level)
         derivedRow(p, "lit at", formatted(planned.levelPower), "Lens power while this region has light.");
-    if (planned.look != Look::neutral) {
-        derivedRow(p, "wearer sees", blurText(p, planned.blurDiameter),
-                   "Blur at its nearest point for a relaxed eye: arc minutes, and dioptres of defocus.");
-        derivedRow(p, "  attending", blurText(p, planned.blurDiameterAttending),
-                   "The same while the eye looks at the nearest focused object.");
-    }
     if (planned.scale != 1.0) {
         derivedRow(p, "appears", formatted(planned.scale, Unit::percent) + " of its size",
                    "Magnification by the lens: the cause of the seam.");
-    }
-    if (!planned.problem.empty()) {
-        ImGui::Dummy({1, p.px(2)});
-        wrapped(planned.problem, colour::warn);
-        if (!planned.help.empty()) wrapped(planned.help, colour::text, Font::small);
     }
 }
 
@@ -159,6 +136,8 @@ void selectedPage(Panel& p) {
     }
     distanceFields(p, *region);
     if (const RegionPlan* planned = p.planOf(region->id)) {
+        ImGui::Dummy({1, p.px(2)});
+        predictionCard(p, *region, *planned);
         derived(p, *planned);
     } else if (region->id != kBackgroundId && region->mask.blank()) {
         wrapped("Covers nothing yet: paint it.", colour::dim, Font::small);

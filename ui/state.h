@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -11,11 +12,13 @@
 
 #include "core/document/document.h"
 #include "core/document/stroke.h"
+#include "core/perceived/perceived.h"
 #include "ui/commands.h"
 #include "ui/layout.h"
 
 namespace ilf::ui {
 
+struct PredictedRegion;
 enum class Tool { move, brush, erase, rectangle, ellipse, polygon, lasso, select, flood };
 enum class ViewMode { scene, perceived, light, compare };
 enum class Page { selected, wearer, seam, light, rig, scene, history };
@@ -99,6 +102,9 @@ struct State {
     Eye eye = Eye::left;
     int slot = 0;
     double divider = 0.5;  ///< of the compare view, share of the canvas
+    ViewRequest seeing;    ///< how perceived views are looked at: gaze, attention, colour, rim; the app sets the rest
+    bool placingGaze = false;  ///< the next click on the picture is where the eye is turned
+    bool debugOpen = false;
     bool fitted = true;
     double zoom = 1.0;          ///< window pixels per picture pixel; follows the window while `fitted`
     Point<CameraFrame> centre;  ///< shown in the middle of the canvas
@@ -114,7 +120,9 @@ struct State {
     CanvasGesture gesture;
 
     FieldState field;
-    bool focusDistance = false;  ///< the distance field takes the keyboard in the next frame
+    std::shared_ptr<const PredictedRegion> predicted;  ///< of the selected region, see ui/prediction_card.h
+    bool whyOpen = false;                              ///< where its +- comes from is shown
+    bool focusDistance = false;                        ///< the distance field takes the keyboard in the next frame
     RegionId renaming;
     std::string nameText;
     bool nameJustOpened = false;

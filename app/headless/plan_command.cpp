@@ -75,13 +75,11 @@ Result<Document> documentOf(const PlanOptions& options) {
     return document;
 }
 
-Result<PlanInput> inputOf(const PlanOptions& options, LensPlanner& planner) {
-    const auto document = documentOf(options);
-    if (!document) return tl::unexpected(document.error());
-    if (!options.file.empty()) return planner.input(*document);
+Result<PlanInput> inputOf(const PlanOptions& options, const Document& document, LensPlanner& planner) {
+    if (!options.file.empty()) return planner.input(document);
     auto objects = parsedObjects(options.objects);
     if (!objects) return tl::unexpected(objects.error());
-    auto input = planner.input(*document);
+    auto input = planner.input(document);
     if (input) input->objects = *std::move(objects);
     return input;
 }
@@ -96,14 +94,17 @@ int planCommand(const PlanOptions& options) {
     const auto lens = simulatedLens(options.lens);
     if (!lens) return refuse(lens.error(), kUsage);
     LensPlanner planner(*lens);
-    const auto input = inputOf(options, planner);
-    if (!input) {
-        const bool typed = options.file.empty() && input.error().fault == Fault::outOfRange;
-        return refuse(input.error(), typed ? kUsage : exitCode(input.error()));
-    }
+    const auto refuseInput = [&](const Error& error) {
+        const bool typed = options.file.empty() && error.fault == Fault::outOfRange;
+        return refuse(error, typed ? kUsage : exitCode(error));
+    };
+    const auto document = documentOf(options);
+    if (!document) return refuseInput(document.error());
+    const auto input = inputOf(options, *document, planner);
+    if (!input) return refuseInput(input.error());
     const auto planned = planner.plan(*input, nullptr, true);
     if (!planned) return refuse(planned.error(), exitCode(planned.error()));
-    std::cout << (options.json ? planJson(*planned) : planText(*planned)) << std::endl;
+    std::cout << (options.json ? planJson(*planned, *document) : planText(*planned, *document)) << std::endl;
     return kDone;
 }
 

@@ -22,9 +22,10 @@ struct PlanOptions {
 /// Prints the plan and returns the exit code.
 int planCommand(const PlanOptions& options);
 
-/// The plan as JSON text; the keys are part of the stable interface.
-std::string planJson(const Plan& plan);
-/// The plan in words, for people.
-std::string planText(const Plan& plan);
+/// The plan and what each region is predicted to look like, as JSON text; the keys are part of the stable interface.
+/// `document`: what was planned, or, for objects alone, an empty one with their wearer, rig and blending.
+std::string planJson(const Plan& plan, const Document& document);
+/// The same in words, for people.
+std::string planText(const Plan& plan, const Document& document);
 
 }  // namespace ilf::app

@@ -5,6 +5,7 @@
 
 #include "app/headless/plan_command.h"
 #include "app/words.h"
+#include "core/perceived/prediction_words.h"
 #include "core/plan/report.h"
 
 namespace ilf::app {
@@ -55,9 +56,43 @@ json waveform(const Plan& plan) {
     return out;
 }
 
+json predictedNumber(const Predicted& value) {
+    json from = json::object();
+    for (std::size_t i = 0; i < kErrorSources; ++i)
+        from[word(static_cast<ErrorSource>(i))] = number(value.from[i]);
+    return {{"value", number(value.value)}, {"plus_minus", number(value.error())}, {"from", from}};
+}
+
+const std::array<const char*, 8> kSayings{"problem", "readable", "blurred", "soft", "seam", "sharp", "even", "steady"};
+const std::array<const char*, 5> kLegibilities{"unreadable", "unreadable_looking_elsewhere", "doubtful", "readable",
+                                               "not_judged"};
+
+json prediction(const Plan& plan, const RegionPlan& region, const Document& document) {
+    const RegionPrediction seen = predicted(plan, region, document);
+    const Statement said = statement(plan, region, seen);
+    json out = {{"provenance", "predicted"},
+                {"about", kSayings[static_cast<std::size_t>(said.about)]},
+                {"statement", said.text},
+                {"warns", said.warns},
+                {"at_m", number(seen.distance.si())},
+                {"blur_arcmin", predictedNumber(seen.blur_arcmin)},
+                {"defocus_D", predictedNumber(seen.defocus_D)},
+                {"contrast", predictedNumber(seen.contrast)},
+                {"contrast_from_ambient", predictedNumber(seen.ambientLeak)},
+                {"seam_contrast", seen.seams ? predictedNumber(seen.seam) : json()},
+                {"light_share", number(seen.light)},
+                {"sharp_share_of_light", number(seen.sharpShare)}};
+    if (!seen.camera) out["acuity_20_over"] = predictedNumber(seen.snellen);
+    if (said.privacy.empty()) return out;
+    out["print"] = kLegibilities[static_cast<std::size_t>(seen.print)];
+    out["contrast_looked_at"] = predictedNumber(seen.contrastLooked);
+    out["privacy"] = said.privacy;
+    return out;
+}
+
 }  // namespace
 
-std::string planJson(const Plan& plan) {
+std::string planJson(const Plan& plan, const Document& document) {
     json regions = json::array();
     for (const RegionPlan& region : plan.regions) {
         regions.push_back({
@@ -74,6 +109,7 @@ std::string planJson(const Plan& plan) {
             {"already_blurred", region.alreadyBlurred},
             {"problem", region.problem.empty() ? json() : json(region.problem)},
             {"help", region.help.empty() ? json() : json(region.help)},
+            {"prediction", prediction(plan, region, document)},
         });
     }
     json slots = json::array();

@@ -3,6 +3,7 @@
 
 #include "app/headless/plan_command.h"
 #include "app/words.h"
+#include "core/perceived/prediction_words.h"
 #include "core/plan/report.h"
 
 namespace ilf::app {
@@ -14,9 +15,27 @@ std::string text(const char* format, double value) {
     return buffer;
 }
 
+/// What a region is predicted to look like, and what its +- comes from.
+std::string predictionText(const Plan& plan, const RegionPlan& region, const Document& document) {
+    const RegionPrediction seen = predicted(plan, region, document);
+    const Statement said = statement(plan, region, seen);
+    std::string out;
+    if (said.about != Saying::problem) out += "    predicted: " + said.text + "\n";
+    if (!said.privacy.empty()) out += "    privacy: " + said.privacy + "\n";
+    if (seen.blur_arcmin.error() <= 0.0) return out;
+    out += "    \u00b1 " + text("%.1f\u2032 of blur from", seen.blur_arcmin.error());
+    for (std::size_t i = 0; i < kErrorSources; ++i) {
+        const auto source = static_cast<ErrorSource>(i);
+        if (seen.blur_arcmin.part(source) > 0.0)
+            out += std::string(" ") + word(source) + text(" %.1f\u2032,", seen.blur_arcmin.part(source));
+    }
+    out.back() = '\n';
+    return out;
+}
+
 }  // namespace
 
-std::string planText(const Plan& plan) {
+std::string planText(const Plan& plan, const Document& document) {
     const PlanReport report = planReport(plan);
     std::string out;
     if (plan.sweeps()) {
@@ -47,6 +66,7 @@ std::string planText(const Plan& plan) {
         out += "\n";
         if (!region.problem.empty()) out += "    problem: " + region.problem + "\n";
         if (!region.help.empty()) out += "    help: " + region.help + "\n";
+        out += predictionText(plan, region, document);
     }
     for (const std::string& warning : plan.warnings)
         out += "warning: " + warning + "\n";

@@ -86,7 +86,7 @@ json reportOf(const Prepared& project, const RunOptions& options, const Played& 
         {"file", options.file},
         {"provenance", "simulated lens and projector"},
         {"seconds", options.seconds},
-        {"plan", json::parse(planJson(project.compiled.plan))},
+        {"plan", json::parse(planJson(project.compiled.plan, project.compiled.document))},
         {"times_ms",
          {{"open", project.open_ms},
           {"plan", project.plan_ms},
@@ -149,7 +149,7 @@ int runCommand(const RunOptions& options) {
                                                            "directory and the space left."});
         }
     }
-    std::cout << planText(project->compiled.plan) << '\n'
+    std::cout << planText(project->compiled.plan, project->compiled.document) << '\n'
               << "Played " << played->sweeps << " sweeps on the simulated devices; first light "
               << played->sentToSwapped_ms << " ms after it was sent; the lens was "
               << std::lround(played->state.offWave.si() * 1e3) << " mD rms off its predicted wave.\n";

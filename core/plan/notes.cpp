@@ -12,10 +12,7 @@
 namespace ilf {
 namespace {
 
-constexpr double kDetail_cpd = 7.5;
-constexpr double kOriginalContrast = 0.59;  // of such print, assumed
-constexpr double kWhite = 0.8;              // reflectance of what is lit, assumed
-constexpr double kLeakOfPrivacy = 0.02;
+constexpr double kWhite = 0.8;  // reflectance of what is lit, assumed
 constexpr int kPhases = 64;
 
 const char* const kFlickerModel = "Farrell 1987 (coefficients from memory) with the pupil of Watson and Yellott 2012; "
@@ -27,18 +24,8 @@ std::string percent(double share) { return inWords(100.0 * share, share < 0.0995
 
 /// |transfer| of a uniform disc `angle` across (radians).
 double discTransfer(double angle) {
-    const double x = std::numbers::pi * kDetail_cpd * (180.0 / std::numbers::pi) * angle;
-    return x < 1e-6 ? 1.0 : std::abs(2.0 * std::cyl_bessel_j(1.0, x) / x);
-}
-
-/// What the eye looks at: the nearest focused object that can be seen sharp.
-const RegionPlan* attended(const Plan& plan) {
-    const RegionPlan* nearest = nullptr;
-    for (const RegionPlan& region : plan.regions) {
-        if (region.look != Look::focus || !region.problem.empty()) continue;
-        if (nearest == nullptr || region.nearest < nearest->nearest) nearest = &region;
-    }
-    return plan.input.camera ? nullptr : nearest;
+    const double x = std::numbers::pi * kReadingDetail_cpd * (180.0 / std::numbers::pi) * angle;
+    return x < 1e-6 ? 1.0 : std::abs(2.0 * ::j1(x) / x);
 }
 
 /// Angle of the blur disc of a region through a power, radians.
@@ -50,17 +37,18 @@ double blurAngle(const Plan& plan, const RegionPlan& region, const RegionPlan* l
     return disc / eye.retina;
 }
 
-struct Transfers {
-    double level = 1.0, sweep = 1.0;
-};
-Transfers transfers(const Plan& plan, const RegionPlan& region) {
-    const RegionPlan* looking = attended(plan);
-    Transfers t;
-    t.level = discTransfer(blurAngle(plan, region, looking, region.levelPower));
-    t.sweep = 0.0;
+/// While the region's own level is lit.
+double levelTransfer(const Plan& plan, const RegionPlan& region) {
+    return discTransfer(blurAngle(plan, region, attendedRegion(plan), region.levelPower));
+}
+
+/// Mean over the sweep, for light that is always there.
+double sweepTransfer(const Plan& plan, const RegionPlan& region) {
+    const RegionPlan* looking = attendedRegion(plan);
+    double sum = 0.0;
     for (const double power_D : samplesOf(plan.waveform.power, kPhases))
-        t.sweep += discTransfer(blurAngle(plan, region, looking, Dioptre::fromSi(power_D))) / kPhases;
-    return t;
+        sum += discTransfer(blurAngle(plan, region, looking, Dioptre::fromSi(power_D)));
+    return sum / kPhases;
 }
 
 PlanNote flickerNote(const Plan& plan) {
@@ -110,17 +98,17 @@ void addAmbientNotes(const Plan& plan, std::vector<PlanNote>& notes) {
                      : ".";
     notes.push_back(std::move(note));
 
-    PlanNote privacy{NoteTopic::privacy, most > kLeakOfPrivacy, {}, kAmbientModel};
+    PlanNote privacy{NoteTopic::privacy, most > kHidesPrint, {}, kAmbientModel};
     const double dark = contrastLeft(plan, *worst).dark;
-    if (most <= kLeakOfPrivacy) {
+    if (most <= kHidesPrint) {
         privacy.text = "Through the glasses at most " + percent(most) +
                        " of the contrast of 3 mm print is left in blurred "
                        "areas. People without glasses read all of it.";
-    } else if (dark <= kLeakOfPrivacy) {
+    } else if (dark <= kHidesPrint) {
         privacy.text = "No privacy: " + percent(most) +
                        " of the contrast is left, and 2 % is the most that hides print. "
                        "It would hold up to " +
-                       inWords(ambientFor(plan, *worst, kLeakOfPrivacy), 0) +
+                       inWords(ambientFor(plan, *worst, kHidesPrint), 0) +
                        " lx of ambient light. People without glasses read all of it.";
     } else {
         privacy.text = "No privacy: " + quoted(worst->name) + " keeps " + percent(dark) +
@@ -165,17 +153,28 @@ double litIlluminance(const Plan& plan) {
     return room.projector_lm / room.litArea_m2 * plan.light;
 }
 
+const RegionPlan* attendedRegion(const Plan& plan) {
+    const RegionPlan* nearest = nullptr;
+    for (const RegionPlan& region : plan.regions) {
+        if (region.look != Look::focus || !region.problem.empty()) continue;
+        if (nearest == nullptr || region.nearest < nearest->nearest) nearest = &region;
+    }
+    return plan.input.camera ? nullptr : nearest;
+}
+
 ContrastLeft contrastLeft(const Plan& plan, const RegionPlan& region) {
-    const Transfers t = transfers(plan, region);
     const double light = litIlluminance(plan), ambient = plan.input.rig.room.ambient_lx;
-    return {kOriginalContrast * t.level, kOriginalContrast * (light * t.level + ambient * t.sweep) / (light + ambient)};
+    const double level = kPrintContrast * levelTransfer(plan, region);
+    if (ambient <= 0.0) return {level, level};
+    const double sweep = kPrintContrast * sweepTransfer(plan, region);
+    return {level, (light * level + ambient * sweep) / (light + ambient)};
 }
 
 double ambientFor(const Plan& plan, const RegionPlan& region, double contrast) {
-    const Transfers t = transfers(plan, region);
-    const double keeps = contrast / kOriginalContrast;
-    if (t.level >= keeps || t.sweep <= keeps) return 0.0;
-    return litIlluminance(plan) * (keeps - t.level) / (t.sweep - keeps);
+    const double level = levelTransfer(plan, region), sweep = sweepTransfer(plan, region);
+    const double keeps = contrast / kPrintContrast;
+    if (level >= keeps || sweep <= keeps) return 0.0;
+    return litIlluminance(plan) * (keeps - level) / (sweep - keeps);
 }
 
 std::vector<PlanNote> planNotes(const Plan& plan) {

@@ -30,6 +30,13 @@ Hertz flickerFusion(double luminance, double modulation, double degrees, double 
 /// Illuminance of a lit region, lux: projector_lm / litArea_m2 times the plan's light.
 double litIlluminance(const Plan& plan);
 
+/// Detail that reading print of 3 mm at 0.5 m takes, the contrast such print has in plain light (assumed), and the most
+/// contrast that still hides it (scheduling 6).
+inline constexpr double kReadingDetail_cpd = 7.5, kPrintContrast = 0.59, kHidesPrint = 0.02;
+
+/// What the eye looks at unless asked otherwise: the nearest focused object that can be seen sharp; none for a camera.
+const RegionPlan* attendedRegion(const Plan& plan);
+
 /// Contrast left of detail at 7.5 cycles per degree (3 mm print at 0.5 m) under projector and ambient light (scheduling
 /// 6). Ambient light is seen through the whole sweep, the projector's through the level alone; both transfer functions
 /// are those of a uniform defocus disc, absolute values. `original` 0.59 is assumed.
