@@ -44,21 +44,6 @@ void addPlan(CLI::App& app, PlanOptions& options) {
     addLensChoice(*plan, options.lens);
 }
 
-void addRender(CLI::App& app, RenderOptions& options) {
-    auto* render = app.add_subcommand("render", "One view of a project as a PNG");
-    render->add_option("FILE", options.file, "Project, picture or video")->required();
-    render->add_option("--view", options.view, "camera, perceived, slot:N or overlay")->capture_default_str();
-    render->add_option("--eye", options.eye, "left or right")
-        ->check(CLI::IsMember({"left", "right"}))
-        ->capture_default_str();
-    render->add_flag("--reference", options.reference, "Perceived view by brute force: rays through the pupil; slow");
-    render->add_option("--samples", options.samples, "Rays a pixel for --reference")
-        ->check(CLI::Range(1, 65536))
-        ->capture_default_str();
-    render->add_option("-o,--out", options.out, "PNG to write")->required();
-    addLensChoice(*render, options.lens);
-}
-
 void addRun(CLI::App& app, RunOptions& options) {
     auto* run = app.add_subcommand("run", "Plan, compile and play on a simulated core, then read back what it showed");
     run->add_option("FILE", options.file, "Project, picture or video")->required();
@@ -214,7 +199,7 @@ int main(int argc, char** argv) {
     std::string studioLens;
     addStudio(app, studio, studioLens);
     addPlan(app, plan);
-    addRender(app, render);
+    addLensChoice(addRender(app, render), render.lens);
     addRun(app, run);
     addOptics(app, opticsEval, opticsTable, opticsPlot);
     addEvaluate(app, evaluation);

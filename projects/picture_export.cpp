@@ -91,6 +91,10 @@ const char* ending(PictureFormat format) {
     return "";
 }
 
+Size sizeOf(const ExportPixels& pixels) {
+    return std::visit([](const auto& picture) { return imageOf(picture).size(); }, pixels);
+}
+
 Result<std::string> encodedExport(const ExportPixels& pixels, const PictureFacts& facts, PictureFormat format,
                                   ExrDepth depth) {
     const bool empty = std::visit([](const auto& picture) { return imageOf(picture).pixels().empty(); }, pixels);

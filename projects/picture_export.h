@@ -36,6 +36,7 @@ struct DifferencePicture {
     double white = 1.0;
 };
 using ExportPixels = std::variant<LightPicture, CodePicture, DifferencePicture>;
+Size sizeOf(const ExportPixels& pixels);
 
 /// What is known of a picture, in order: "eye" -> "left". Written beside the pixels: EXR attributes, the TIFF's
 /// description, PNG texts. Keys are lower-case words of ASCII without colons; values without line breaks.

@@ -1,5 +1,6 @@
 #include "projects/picture_png_texts.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 
@@ -28,6 +29,10 @@ std::string chunk(const std::string& type, const std::string& content) {
     return big(static_cast<std::uint32_t>(content.size())) + type + content + big(crc(type + content));
 }
 
+bool isAscii(const std::string& text) {
+    return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+}
+
 }  // namespace
 
 std::string withFacts(const std::string& png, const PictureFacts& facts, bool srgb) {
@@ -36,7 +41,9 @@ std::string withFacts(const std::string& png, const PictureFacts& facts, bool sr
     std::string added;
     if (srgb) added += chunk("sRGB", std::string(1, '\0'));  // perceptual
     for (const auto& [key, value] : facts)
-        added += chunk("tEXt", key + '\0' + value);
+        added += isAscii(value)
+                     ? chunk("tEXt", key + '\0' + value)
+                     : chunk("iTXt", key + std::string(5, '\0') + value);  // UTF-8, of no language, uncompressed
     return png.substr(0, kHeader) + added + png.substr(kHeader);
 }
 
