@@ -9,6 +9,7 @@
 #include "app/headless/plan_command.h"
 #include "app/headless/render_command.h"
 #include "app/headless/run_command.h"
+#include "app/headless/seams_command.h"
 #include "app/headless/validate_command.h"
 #include "app/studio/options.h"
 #include "devices/link/start_core.h"
@@ -162,6 +163,19 @@ void addEvaluate(CLI::App& app, EvaluateCommandOptions& options) {
     evaluate->add_flag("--quick", options.quick, "Fewer cases, in seconds");
 }
 
+void addSeams(CLI::App& app, SeamsOptions& options) {
+    auto* seams = app.add_subcommand("seams", "How visible each border between sharp and blurred light is, for each eye");
+    seams->add_option("FILE", options.file, "Project");
+    seams->add_option("--errors", options.errors, "pupil=1,registration=0.25,gaze=5,lens=2 (mm), nearer=5,farther=10 (%)")
+        ->delimiter(',');
+    seams->add_option("--motion", options.motion_mm_s, "Speed of a moving region across the surface, mm/s")
+        ->check(CLI::Range(0.1, 10000.0));
+    seams->add_flag("--json", options.json, "As JSON");
+    seams->add_option("--experiment", options.experiment, "The paper's experiment on this folder's textures, without FILE");
+    seams->add_option("-o,--out", options.out, "Folder for the experiment's pictures and seams.csv");
+    addLensChoice(*seams, options.lens);
+}
+
 void addStudio(CLI::App& app, StudioOptions& options, std::string& lens) {
     app.add_option("FILE", options.file, "Project, picture or video to open");
     app.add_option("--scale", options.scale, "Size of the window's text and controls (0: the display's own)")
@@ -169,6 +183,9 @@ void addStudio(CLI::App& app, StudioOptions& options, std::string& lens) {
     app.add_option("--size", options.size, "Window size, such as 1600x1000");
     app.add_flag("--reset-layout", options.resetLayout, "Start with the default layout");
     app.add_option("--screenshot", options.screenshot, "Write a PNG of the window once its views are done, then quit");
+    // For measurements (tests/bench/frame_times.sh), not for operators.
+    app.add_option("--frame-times", options.frameTimes, "Write what each frame took as JSON when the window closes")
+        ->group("");
     app.add_option("--simulated-lens", lens,
                    "Of a core that has to be started: slow, datasheet, lively, clean, dirty, ideal")
         ->check(CLI::IsMember(kSimulatedLenses));
@@ -203,6 +220,8 @@ int main(int argc, char** argv) {
     addRun(app, run);
     addOptics(app, opticsEval, opticsTable, opticsPlot);
     addEvaluate(app, evaluation);
+    SeamsOptions seams;
+    addSeams(app, seams);
     addLens(app, lens);
     LensChoice validatedLens;
     auto* validate =
@@ -225,6 +244,7 @@ int main(int argc, char** argv) {
         if (app.got_subcommand("plan")) return planCommand(plan);
         if (app.got_subcommand("render")) return renderCommand(render);
         if (app.got_subcommand("run")) return runCommand(run);
+        if (app.got_subcommand("seams")) return seamsCommand(seams);
         if (app.got_subcommand("optics")) {
             const auto* optics = app.get_subcommand("optics");
             if (optics->got_subcommand("eval")) return opticsEvalCommand(opticsEval);

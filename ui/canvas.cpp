@@ -73,6 +73,34 @@ void drawEmpty(Panel& p, ImDrawList& draw) {
     }
 }
 
+/// What a perceived view is, and how carefully it was made: nobody may take a coarse one for the truth.
+std::string viewCaption(const Panel& p) {
+    const State& state = p.state;
+    const Computed& computed = p.view.computed;
+    std::string words = state.eye == Eye::left ? "perceived, left eye, computed" : "perceived, right eye, computed";
+    if (!computed.viewRung.empty()) words += ", " + computed.viewRung;
+    if (computed.viewScale < 1.0) {
+        words += ", " + std::to_string(std::lround(computed.viewScale * p.document().scene.size().width)) + " px wide";
+    }
+    if (p.document().wearer.camera) return words;
+    if (state.seeing.gaze == Gaze::fixed) words += ", looking at the cross";
+    if (state.seeing.gaze == Gaze::follows) words += ", gaze follows";
+    return words;
+}
+
+/// Where the eye is turned.
+void drawGaze(Panel& p, const Viewport& viewport, ImDrawList& draw) {
+    if (p.state.seeing.gaze != Gaze::fixed || p.document().wearer.camera) return;
+    const ImVec2 at = vec(viewport.toWindow(p.state.seeing.gazeAt));
+    const float inner = p.px(4), outer = p.px(12);
+    for (const auto& [ink, width] : {std::pair(rgb(0x000000, 150), p.px(3.5)), std::pair(colour::text, p.px(1.5))}) {
+        draw.AddLine({at.x - outer, at.y}, {at.x - inner, at.y}, ink, width);
+        draw.AddLine({at.x + inner, at.y}, {at.x + outer, at.y}, ink, width);
+        draw.AddLine({at.x, at.y - outer}, {at.x, at.y - inner}, ink, width);
+        draw.AddLine({at.x, at.y + inner}, {at.x, at.y + outer}, ink, width);
+    }
+}
+
 /// Mode colours the frame of the picture.
 ImU32 frameColour(const View& view) {
     if (!view.core.faultSeen && !view.core.lastFault.empty()) return colour::fault;
@@ -145,6 +173,16 @@ void zoomTo(State& state, double zoom) {
     state.zoom = std::clamp(zoom, kMinZoom, kMaxZoom);
 }
 
+void lookAt(State& state, const Document& document, Point<CameraFrame> at) {
+    const Region* region = regionAt(document, at);
+    state.seeing.gaze = Gaze::fixed;
+    state.seeing.gazeAt = at;
+    state.seeing.attending = region != nullptr     ? std::optional(region->id)
+                             : document.background ? std::optional(kBackgroundId)
+                                                   : std::nullopt;
+    state.placingGaze = false;
+}
+
 Viewport viewportOf(const Panel& p) {
     if (p.state.fitted) return fitted(p.at.canvas, p.document().scene.size());
     return {p.at.canvas, p.state.zoom, p.state.centre};
@@ -158,7 +196,6 @@ void drawPictures(Panel& p, const Viewport& viewport, ImDrawList& draw) {
     const Texture& ground = view.camera.live && view.live.id != 0 ? view.live : view.scene;
     const Texture& seen = view.perceived[state.eye == Eye::left ? 0 : 1];
     const Texture& plain = view.plain.id != 0 ? view.plain : view.scene;
-    const std::string eye = state.eye == Eye::left ? "left eye" : "right eye";
     const double left = p.at.canvas.x + 14 * p.scale, top = p.at.canvas.y + 12 * p.scale;
     const auto missing = [&] {
         const std::string why = view.computed.planError.empty() ? "working it out ..." : view.computed.planError;
@@ -172,7 +209,7 @@ void drawPictures(Panel& p, const Viewport& viewport, ImDrawList& draw) {
         if (state.plainHeld || seen.id == 0) drawOver(viewport, draw, plain, size);
         if (!state.plainHeld) drawOver(viewport, draw, seen, size);
         if (!state.plainHeld && seen.id == 0) return missing();
-        caption(p, draw, left, top, state.plainHeld ? "plain view" : "perceived, " + eye + ", computed");
+        caption(p, draw, left, top, state.plainHeld ? "plain view" : viewCaption(p));
         break;
     case ViewMode::light: {
         drawOver(viewport, draw, ground, size, 0, 1, rgb(0x303030));
@@ -191,7 +228,7 @@ void drawPictures(Panel& p, const Viewport& viewport, ImDrawList& draw) {
         draw.AddLine(vec(x, p.at.canvas.y), vec(x, p.at.canvas.bottom()), rgb(0xffffff, 150), p.px(1.5));
         draw.AddCircleFilled(vec(x, p.at.canvas.y + p.at.canvas.h / 2), p.px(8), rgb(0xffffff, 200));
         caption(p, draw, left, top, "plain");
-        caption(p, draw, x + 14 * p.scale, top, "perceived, " + eye + ", computed");
+        caption(p, draw, x + 14 * p.scale, top, viewCaption(p));
         break;
     }
     }
@@ -199,6 +236,12 @@ void drawPictures(Panel& p, const Viewport& viewport, ImDrawList& draw) {
     const bool pictureOnly = state.mode != ViewMode::scene;
     const bool painting = state.gesture.kind == CanvasGesture::Kind::paint;
     if (!state.overlayHidden && (!pictureOnly || painting)) drawOver(viewport, draw, view.overlay, size);
+    const bool seenByAnEye = (state.mode == ViewMode::perceived || state.mode == ViewMode::compare) && !state.plainHeld;
+    if (seenByAnEye && !state.overlayHidden) drawGaze(p, viewport, draw);
+    if (state.placingGaze) {
+        caption(p, draw, left, p.at.canvas.bottom() - 30 * p.scale, "click what is looked at, Esc to leave it",
+                colour::warn);
+    }
     if (view.busySelecting)
         caption(p, draw, left, p.at.canvas.bottom() - 30 * p.scale, "finding the outline ...", colour::warn);
     if (view.camera.frozen) {

@@ -28,6 +28,8 @@ std::vector<Badge> badges(const Panel& p, const Viewport& viewport);
 inline constexpr double kHandle = 7.0, kReach = 11.0;
 
 void zoomTo(State& state, double zoom);
+/// Turns the eye of perceived views to a point of the picture; it focuses on what is seen there.
+void lookAt(State& state, const Document& document, Point<CameraFrame> at);
 /// Closes the polygon being drawn into the selected region (a new one when none is selected).
 void finishPolygon(const View& view, State& state, Requests& requests);
 

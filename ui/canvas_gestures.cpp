@@ -157,6 +157,7 @@ void begin(Panel& p, const Viewport& viewport, const PointerSample& sample) {
         return;
     }
     if (gesture.button == 1) return rightClick(p, viewport, sample.at);
+    if (state.placingGaze) return lookAt(state, p.document(), at);
     if (state.mode == ViewMode::compare &&
         std::abs(sample.at.x - (p.at.canvas.x + state.divider * p.at.canvas.w)) <= kReach * p.scale) {
         gesture.kind = Kind::divider;

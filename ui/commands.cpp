@@ -117,6 +117,11 @@ constexpr auto table = std::to_array<CommandInfo>({
      "Hide everything but the picture, or bring it back."},
     {C::fullScreen, "view.fullScreen", "Full screen", "View", plain(f(11)), none, "The window over the whole screen."},
 
+    {C::debugPanel, "view.debug", "Counters", "View", plain(f(3)), none,
+     "What the last view, compile and frame took, and what they could leave out."},
+    {C::gazeHere, "view.gazeHere", "Look here", "View", plain('G'), none,
+     "In perceived views the eye is turned to the point under the cursor and focuses on what is there."},
+
     {C::resetLayout, "view.resetLayout", "Reset layout", "View", none, none,
      "Panels as they were at first; hints are shown again."},
 

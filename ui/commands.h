@@ -65,6 +65,8 @@ enum class Command {
     zoomOut,
     hidePanels,
     fullScreen,
+    debugPanel,
+    gazeHere,
     resetLayout,
     grab,
     openCamera,

@@ -1,4 +1,4 @@
-// Pages below the list: region (in low windows), wearer, seam, rig, scene, history.
+// Pages below the list: region (in low windows), rig, history; the tabs of all.
 #include <array>
 #include <cmath>
 
@@ -22,49 +22,6 @@ constexpr std::array<Tab, 7> tabs{{{Page::selected, "Region###region"},
                                    {Page::history, "History###history"}}};
 
 }  // namespace
-
-void seamPage(Panel& p) {
-    const Seam& seam = p.document().seam;
-    constexpr std::array<const char*, 4> names{"none", "linear, object", "linear, perceived", "closed form"};
-    rowLabel(p, "Blending", "How the border between sharp and blurred light is blended.");
-    ImGui::SetNextItemWidth(-1);
-    if (ImGui::BeginCombo("###blending", names[static_cast<std::size_t>(seam.blending)])) {
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            if (ImGui::Selectable(names[i], i == static_cast<std::size_t>(seam.blending))) {
-                p.commit(SetSeam{{static_cast<Blending>(i), seam.feather}});
-            }
-        }
-        ImGui::EndCombo();
-    }
-    const FieldSpec spec{Unit::millimetre, 0.0, 0.2, 0.0001,
-                         "Width of the ramp across the surface, in mm at its distance."};
-    if (const auto change = numberRow(p, "Feather", "###feather", seam.feather.si(), spec)) {
-        p.edit(change->commits, SetSeam{{seam.blending, Metre::fromSi(change->value)}});
-    }
-    const auto& profile = p.view.computed.seam;
-    if (!profile) {
-        wrapped("Hold the cursor near the border of a blurred region to see its seam.", colour::dim, Font::small);
-        return;
-    }
-    const Region* blurred = findRegion(p.document(), profile->blurred);
-    const Region* other = findRegion(p.document(), profile->other);
-    if (blurred != nullptr && other != nullptr) derivedRow(p, "between", blurred->name + " / " + other->name);
-    derivedRow(p, profile->gap ? "gap" : "overlap", formatted(profile->seamWidth_mm * 1e-3, Unit::millimetre),
-               "Without blending: a dark gap or a bright overlap this wide.");
-    if (profile->depthStep) {
-        wrapped("One surface stands before the other here, so nothing is blended: what shows is the outline of the "
-                "nearer one.",
-                colour::dim, Font::small);
-    }
-    const auto worst = [&](const char* label, const EyeProfile& eye) {
-        derivedRow(p, label,
-                   formatted(eye.worstWeberBefore, Unit::percent) + " \u2192 " +
-                       formatted(eye.worstWeberAfter, Unit::percent),
-                   "Worst Weber contrast along the border, before and after blending.");
-    };
-    worst("left eye", profile->left);
-    worst("right eye", profile->right);
-}
 
 void rigPage(Panel& p) {
     const Rig& rig = p.document().rig;
@@ -92,6 +49,7 @@ void rigPage(Panel& p) {
          [](Rig& r, double v) { r.lensMin = Dioptre::fromSi(v); });
     rate("Lens to", "###lensMax", rig.lensMax.si(), {Unit::dioptre, 0.0, 30.0, 0.02, "Largest power of the lens."},
          [](Rig& r, double v) { r.lensMax = Dioptre::fromSi(v); });
+    primariesRows(p);
     const CoreStatus& core = p.view.core;
     ImGui::Dummy({1, p.px(4)});
     heading("OUTPUT CORE");

@@ -46,6 +46,8 @@ void historyPage(Panel& p);
 void selectedPage(Panel& p);
 void chartsRow(Panel& p);
 void statusLine(Panel& p);
+void debugPanel(Panel& p);
+void primariesRows(Panel& p);
 void splitters(Panel& p);
 void toasts(Panel& p);
 void hints(Panel& p);

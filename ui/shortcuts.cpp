@@ -17,6 +17,7 @@ void cancelGesture(State& state, Requests& requests) {
     if (state.gesture.edited) requests.push_back(CancelGesture{});
     state.gesture = {};
     state.polygon.clear();
+    state.placingGaze = false;
 }
 
 /// The region's place in the list, if it is one that can be moved and painted.
@@ -351,6 +352,14 @@ void run(Command command, const View& view, State& state, Requests& requests) {
         return;
     case Command::hidePanels:
         state.panels.hidden = !state.panels.hidden;
+        return;
+    case Command::debugPanel:
+        state.debugOpen = !state.debugOpen;
+        return;
+    case Command::gazeHere:
+        // From a menu there is no point under the cursor: the next click gives it.
+        state.placingGaze = !state.cursor;
+        if (state.cursor) lookAt(state, view.document, *state.cursor);
         return;
     case Command::resetLayout:
         state.panels = {};

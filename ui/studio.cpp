@@ -78,6 +78,7 @@ Requests studio(const View& view, State& state, const Input& input) {
         statusLine(p);
         splitters(p);
     }
+    debugPanel(p);
     hints(p);
     toasts(p);
     dialogs(p);
@@ -96,6 +97,7 @@ Wants wants(const State& state) {
     wanted.cursor = state.cursor;
     wanted.zoom = state.zoom;
     wanted.selected = state.selected;
+    wanted.seeing = state.seeing;
     wanted.gesture = state.gesture.kind != CanvasGesture::Kind::none || state.field.scrubbing != 0;
     return wanted;
 }

@@ -46,6 +46,7 @@ struct Wants {
     double zoom = 1.0;                         ///< window pixels per picture pixel: views need no more
     RegionId selected;                         ///< drawn brighter in the overlay
     bool gesture = false;                      ///< something is being dragged: answer fast, refine later
+    ViewRequest seeing;                        ///< gaze, attention, colour and rim of perceived views
     bool operator==(const Wants&) const = default;
 };
 Wants wants(const State& state);

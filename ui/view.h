@@ -12,6 +12,7 @@
 #include "core/document/document.h"
 #include "core/perceived/seam_border.h"
 #include "core/perceived/seam_profile.h"
+#include "core/perceived/view_engine.h"
 #include "core/plan/plan.h"
 #include "core/plan/report.h"
 
@@ -66,8 +67,12 @@ struct Computed {
     std::shared_ptr<const std::vector<BorderSeam>> seams;  ///< along whole borders, worst first; none until at rest
     std::shared_ptr<const PlanReport> report;              ///< none before the first plan
     double plan_ms = 0.0, compile_ms = 0.0, view_ms = 0.0;
-    std::string viewRung;  ///< "dragging", "at rest": what quality the perceived view has
+    std::string viewRung;    ///< "while dragging", "at rest", "refined": how carefully the perceived view was made
+    double viewScale = 1.0;  ///< its pixels per picture pixel: below 1 for pictures wider than views are computed
+    std::optional<ViewCounters> viewCounters;  ///< of the eye on screen
     CompileCounters counters;
+    /// The window's last frame: processor time of its own work, and what the swap took (software GL draws in it).
+    double frameOwn_ms = 0.0, frameSwap_ms = 0.0;
 };
 
 struct RecentFile {

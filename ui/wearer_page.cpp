@@ -1,4 +1,5 @@
-// The wearer: pupil, lens, prescription, age, what counts as blurred; or a camera in the eye's place.
+// The wearer: pupil, lens, prescription, age, what counts as blurred; or a camera in the eye's place. And where it
+// looks.
 #include <array>
 
 #include "core/optics/eye.h"
@@ -43,6 +44,51 @@ void confusion(Panel& p) {
     } else {
         derivedRow(p, "  diameter", formatted(eyeOptics(p.document().wearer).confusion.si(), Unit::millimetre));
     }
+}
+
+/// How perceived views are looked at: no edit, since the document says who wears the glasses, not where they look.
+void seeing(Panel& p) {
+    ImGui::Dummy({1, p.px(4)});
+    heading("IN PERCEIVED VIEWS");
+    ViewRequest& seen = p.state.seeing;
+    rowLabel(p, "Focuses on", "What the eye accommodates to, as far as it can.");
+    ImGui::SetNextItemWidth(-1);
+    const Region* attended = seen.attending ? findRegion(p.document(), *seen.attending) : nullptr;
+    constexpr const char* kNearest = "nearest in focus";
+    if (ImGui::BeginCombo("###attending", attended != nullptr ? attended->name.c_str() : kNearest)) {
+        if (ImGui::Selectable(kNearest, attended == nullptr)) seen.attending.reset();
+        const auto offer = [&](const Region& region) {
+            ImGui::PushID(region.id.c_str());
+            if (ImGui::Selectable((region.name + "###region").c_str(), &region == attended)) seen.attending = region.id;
+            ImGui::PopID();
+        };
+        for (const Region* region : activeRegions(p.document()))
+            offer(*region);
+        if (p.document().background) offer(*p.document().background);
+        ImGui::EndCombo();
+    }
+    const auto onOff = [&](const char* label, const char* id, bool& on, const char* help) {
+        rowLabel(p, label, help);
+        if (const auto picked = choice(id, {"off", "on"}, on ? 1 : 0, ImGui::GetContentRegionAvail().x))
+            on = *picked == 1;
+    };
+    rowLabel(p, "Gaze",
+             "Where the eye is turned. To the side its pupil moves, and the centre of magnification with it: seams "
+             "shift. \"follows\" shows every point as seen when looking at it.");
+    if (const auto picked = choice("###gaze", {"ahead", "point", "follows"}, static_cast<int>(seen.gaze),
+                                   ImGui::GetContentRegionAvail().x)) {
+        p.state.placingGaze = *picked == static_cast<int>(Gaze::fixed);
+        if (!p.state.placingGaze) seen.gaze = static_cast<Gaze>(*picked);
+    }
+    if (p.document().rig.primaries) {
+        onOff("Colours", "###chromatic", seen.chromatic,
+              "The eye focuses red behind and blue before green: each colour of the projector is blurred by its own "
+              "amount.");
+    } else {
+        derivedRow(p, "Colours", "together", "The rig does not say which wavelengths its light has: see the Rig page.");
+    }
+    onOff("Lens rim", "###lensField", seen.lensField,
+          "Beyond the lens's rim the scene is seen past it: sharp, in steady light.");
 }
 
 }  // namespace
@@ -111,6 +157,7 @@ void wearerPage(Panel& p) {
               n.axes[0].right = middle - Metre::fromSi(v * 0.5);
               n.axes[1].right = middle + Metre::fromSi(v * 0.5);
           });
+    if (!camera) seeing(p);
 }
 
 }  // namespace ilf::ui

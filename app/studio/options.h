@@ -14,6 +14,7 @@ struct StudioOptions {
     bool resetLayout = false;
     std::string screenshot;
     std::string view;
+    std::string frameTimes;  ///< JSON to write at the end: what each frame took
     std::string coreProgram;
     devices::SimulatedLens lens = devices::kUsualLens;  ///< of a core that has to be started
 };

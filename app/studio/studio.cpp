@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 
 #include "app/exit_code.h"
@@ -24,6 +25,8 @@ constexpr double kIdleWait_s = 0.1;
 constexpr int kSettlingFrames = 3;
 /// A screenshot does not wait longer than this for the core.
 constexpr double kScreenshotPatience_s = 15.0;
+/// Sending a whole view to the GPU may take longer than a frame has; the rest follows in the next ones.
+constexpr std::chrono::microseconds kUploadBudget{2000};
 /// A view computed while dragging is refined once nothing has changed for this long.
 constexpr double kRestAfter_s = 0.08;
 
@@ -84,7 +87,8 @@ Result<std::unique_ptr<Studio>> Studio::start(const StudioOptions& options) {
 
 Studio::Studio(StudioOptions options, std::unique_ptr<Window> window, OpenedFile opened)
     : options_(std::move(options)), window_(std::move(window)), editor_(opened.document), keeper_(&Window::wake),
-      camera_(&Window::wake), selector_(&Window::wake), changedAt_(Clock::now()), worker_(options_.lens, &Window::wake),
+      camera_(&Window::wake), selector_(&Window::wake), times_(!options_.frameTimes.empty()), changedAt_(Clock::now()),
+      worker_(options_.lens, &Window::wake),
       link_(options_.coreProgram, devices::coreArguments(options_.lens), devices::runtimeDirectory(), &Window::wake) {
     if (!options_.resetLayout) ui_ = ui::withLayout(ui_, keeper_.layoutText());
     ui_.mode = startMode(options_.view);
@@ -94,16 +98,21 @@ Studio::Studio(StudioOptions options, std::unique_ptr<Window> window, OpenedFile
     playAtStart_ = plays;
 }
 
-Studio::~Studio() { keeper_.closed(ui::layoutText(ui_), editor_.document()); }
+Studio::~Studio() {
+    keepFrameTimes();
+    keeper_.closed(ui::layoutText(ui_), editor_.document());
+}
 
 int Studio::run() {
     while (true) {
         const bool busy = quietFrames_ < kSettlingFrames || editor_.previewing() || camera_.streaming();
+        times_.begin(!busy);
         window_->waitEvents(busy ? 0.0 : kIdleWait_s);
         frame();
         if ((window_->shouldClose() || closing_) && mayClose()) return kDone;
         if (!options_.screenshot.empty() && worthAPicture()) {
             window_->captureNext();
+            times_.begin(false);
             frame();
             const auto written = projects::writePng(options_.screenshot, window_->captured());
             if (!written) std::cerr << "illuminatedfocus: " << written.error().what << '\n';
@@ -113,7 +122,8 @@ int Studio::run() {
 }
 
 bool Studio::worthAPicture() const {
-    const bool shown = done_.viewsDone && done_.serial == editor_.serial() && quietFrames_ >= kSettlingFrames;
+    const bool shown = (seen_.settled || done_.refusal) && done_.serial == editor_.serial() &&
+                       (done_.refusal || seen_.serial == done_.serial) && quietFrames_ >= kSettlingFrames;
     const bool plays = !playAtStart_ && !takeSerial_ && core_.connected && core_.revisionPlayed == revision_;
     return shown && now_s() > 1.0 && (plays || now_s() > kScreenshotPatience_s);
 }
@@ -132,22 +142,42 @@ void Studio::frame() {
     ui::Input input = window_->takeInput();
     input.dropped = window_->takeDroppedFiles();
     const bool eventful = input.trail.size() > 1 || !input.pressed.empty() || !input.released.empty();
+    times_.lap(FrameStage::input);
 
     showTitle();
     pictures_.show(editor_.document(), ui_.selected);
-    pictures_.show(done_, ui::wants(ui_).lights);
+    const bool partly = pictures_.show(seen_, kUploadBudget);
+    if (ui::wants(ui_).lights) pictures_.showLights(done_);
+    times_.lap(FrameStage::upload);
     window_->beginFrame();
     const ui::Requests requests = ui::studio(view(), ui_, input);
+    times_.lap(FrameStage::build);
     handle(requests);
     sendIfDue();
     postJob();
     keeper_.autosaveIfDue(editor_.document(), editor_.history().revision(), now_s());
-    window_->endFrame();
-    quietFrames_ = eventful || !requests.empty() ? 0 : std::min(quietFrames_ + 1, 1000);
+    times_.lap(FrameStage::edit);
+    window_->draw();
+    times_.lap(FrameStage::draw);
+    window_->swap();
+    times_.lap(FrameStage::swap);
+    times_.end(ui::wants(ui_).gesture);
+    quietFrames_ = eventful || partly || !requests.empty() ? 0 : std::min(quietFrames_ + 1, 1000);
+}
+
+void Studio::keepFrameTimes() const {
+    if (options_.frameTimes.empty()) return;
+    std::ofstream out(options_.frameTimes);
+    out << times_.json({{"views while dragging", viewsTaken_[0]},
+                        {"views at rest", viewsTaken_[1]},
+                        {"views refined", viewsTaken_[2]},
+                        {"view tiles sent", pictures_.tilesSent()}});
+    if (!out) spdlog::error("The frame times could not be written to {}.", options_.frameTimes);
 }
 
 void Studio::collect() {
     if (auto done = worker_.tryTake()) takeDone(*std::move(done));
+    if (auto seen = worker_.tryTakeSeen()) takeSeen(*std::move(seen));
     if (auto news = link_.tryTake()) takeNews(*std::move(news));
     if (camera_.collect()) takeFrame();
     for (const std::string& sentence : camera_.takeSentences())
@@ -165,18 +195,18 @@ void Studio::collect() {
 }
 
 void Studio::takeDone(Done done) {
-    // Views that this answer does not bring stay on screen until newer ones come.
-    for (std::size_t eye = 0; eye < 2; ++eye) {
-        if (done.perceived[eye].empty()) done.perceived[eye] = done_.perceived[eye];
-    }
-    if (done.plain.empty()) done.plain = done_.plain;
-    if (!done.viewsDone) {
-        done.seam = done_.seam;
-        done.rung = done_.rung;
-        done.view_ms = done_.view_ms;
-    }
     if (done.compiled && done.compiled != done_.compiled) doneHash_ = contentHash(done.compiled->program);
     done_ = std::move(done);
+    quietFrames_ = 0;
+}
+
+void Studio::takeSeen(Seen seen) {
+    // Views that this answer does not bring stay on screen until newer ones come.
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+        if (!seen.perceived[eye]) continue;
+        if (seen.perceived[eye] != seen_.perceived[eye]) ++viewsTaken_[static_cast<std::size_t>(seen.rung)];
+    }
+    seen_ = std::move(seen);
     quietFrames_ = 0;
 }
 
@@ -222,7 +252,8 @@ void Studio::postJob() {
     const double restedFor = std::chrono::duration<double>(Clock::now() - changedAt_).count();
     const bool dragging = (editor_.previewing() || wants.gesture) && restedFor < kRestAfter_s;
     const bool sameViews = wants.perceivedLeft == posted_.perceivedLeft && wants.plain == posted_.plain &&
-                           wants.perceivedRight == posted_.perceivedRight && wants.cursor == posted_.cursor;
+                           wants.perceivedRight == posted_.perceivedRight && wants.cursor == posted_.cursor &&
+                           wants.seeing == posted_.seeing;
     if (postedSerial_ == editor_.serial() && sameViews && dragging == postedDragging_) return;
     Job job;
     job.serial = postedSerial_ = editor_.serial();
@@ -230,6 +261,7 @@ void Studio::postJob() {
     job.dragging = postedDragging_ = dragging;
     job.eyes = {wants.perceivedLeft, wants.perceivedRight};
     job.plain = wants.plain;
+    job.seeing = wants.seeing;
     job.cursor = wants.cursor;
     job.strokeAt = changedAt_;
     posted_ = wants;
@@ -300,12 +332,21 @@ ui::View Studio::view() const {
         computed.counters = done_.compiled->counters;
     }
     if (done_.refusal) computed.planError = done_.refusal->what;
-    computed.seam = done_.seam;
-    computed.report = done_.report;
+    if (!done_.refusal && seen_.refusal) computed.planError = seen_.refusal->what;
+    computed.seam = seen_.seam;
+    computed.seams = seen_.seams;
+    computed.report = seen_.report;
     computed.plan_ms = done_.plan_ms;
     computed.compile_ms = done_.compile_ms;
-    computed.view_ms = done_.view_ms;
-    computed.viewRung = done_.rung;
+    computed.view_ms = seen_.view_ms;
+    const auto eye = static_cast<std::size_t>(ui_.eye == Eye::left ? 0 : 1);
+    if (seen_.perceived[eye]) {
+        computed.viewRung = word(seen_.rung);
+        computed.viewScale = seen_.scale;
+        computed.viewCounters = seen_.counters[eye];
+    }
+    computed.frameOwn_ms = times_.last().ownCpu_ms();
+    computed.frameSwap_ms = times_.last().wall_ms[static_cast<std::size_t>(FrameStage::swap)];
 
     view.core = coreView(core_, linkTrouble_, revision_, faultsSeen_, latency_);
     view.camera = camera_.status();

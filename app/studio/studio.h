@@ -13,6 +13,7 @@
 #include "app/studio/options.h"
 #include "app/studio/selector.h"
 #include "app/studio/worker.h"
+#include "app/window/frame_times.h"
 #include "app/window/pictures.h"
 #include "app/window/window.h"
 
@@ -33,6 +34,7 @@ private:
     void frame();
     void collect();  ///< takes what threads have finished
     void takeDone(Done done);
+    void takeSeen(Seen seen);
     void takeNews(LinkNews news);
     void takeFrame();
     void postJob();
@@ -41,6 +43,7 @@ private:
     void say(const std::string& sentence, ui::Tone tone);
     bool mayClose();
     bool worthAPicture() const;  ///< everything the window shows is settled
+    void keepFrameTimes() const;
     void showTitle();
     double now_s() const;
     int editsSinceTake() const;  ///< 0: what plays is what is painted
@@ -82,6 +85,9 @@ private:
     Latency latency_;
 
     Done done_;  ///< the newest of the worker
+    Seen seen_;  ///< the newest of the viewer
+    FrameTimes times_;
+    std::array<std::uint64_t, 3> viewsTaken_{};  ///< by Rung
     std::uint64_t postedSerial_ = 0;
     ui::Wants posted_;
     bool postedDragging_ = false;

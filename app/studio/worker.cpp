@@ -1,9 +1,7 @@
 #include "app/studio/worker.h"
 
-#include <algorithm>
 #include <exception>
-
-#include "core/base/srgb.h"
+#include <string>
 
 namespace ilf::app {
 namespace {
@@ -12,44 +10,32 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-double viewScale(const Document& document, bool dragging) {
-    const int limit = dragging ? kDraggingWidth : kRestWidth;
-    return std::min(1.0, static_cast<double>(limit) / std::max(1, document.scene.size().width));
-}
-
-/// The seam is looked for this far from the cursor, as a share of the picture's width.
-constexpr double kSeamReach = 0.05;
-
 }  // namespace
 
-Worker::Worker(devices::SimulatedLens lens, std::function<void()> onDone)
-    : onDone_(std::move(onDone)), planner_(lens), thread_([this](std::stop_token s) { run(s); }) {}
+Worker::Worker(devices::SimulatedLens lens, std::function<void()> onNews)
+    : onNews_(std::move(onNews)), planner_(lens), viewer_(onNews_), thread_([this](std::stop_token s) { run(s); }) {}
 
 void Worker::run(std::stop_token stop) {
     while (auto job = jobs_.take(stop)) {
-        const std::uint64_t serial = job->serial;
+        Done done;
         try {
-            work(*std::move(job));
+            done = program(*job);
         } catch (const std::exception& e) {  // a library threw where nobody expected it: say so, keep working
-            Done failed;
-            failed.serial = serial;
-            failed.refusal = Error{Fault::unsupported, std::string("The computation stopped: ") + e.what() +
-                                                           ". What plays goes on; undo the last edit."};
-            done_.put(std::move(failed));
-            if (onDone_) onDone_();
+            done.refusal = Error{Fault::unsupported, std::string("The computation stopped: ") + e.what() +
+                                                         ". What plays goes on; undo the last edit."};
         }
+        done.serial = job->serial;
+        done.strokeAt = job->strokeAt;
+        const auto compiled = done.compiled;
+        done_.put(std::move(done));
+        if (onNews_) onNews_();
+        if (!compiled) continue;
+        viewer_.post({job->serial, compiled, job->dragging, job->eyes, job->plain, job->seeing, job->cursor});
     }
 }
 
-void Worker::work(Job job) {
-    const auto publish = [&](const Done& done) {
-        done_.put(done);
-        if (onDone_) onDone_();
-    };
+Done Worker::program(const Job& job) {
     Done done;
-    done.serial = job.serial;
-    done.strokeAt = job.strokeAt;
-
     // Plan: not worked out again when nothing it depends on changed.
     auto start = Clock::now();
     // Learning a wave on the lens takes longer than a frame: it waits until the hand is still.
@@ -78,58 +64,7 @@ void Worker::work(Job job) {
         done.refusal = planned.error();
     }
     done.compile_ms = millisecondsSince(start);
-    done.report = report_;
-    publish(done);
-    if (!done.compiled) {
-        lastViewed_.reset();
-        lastDone_ = done;
-        return;
-    }
-
-    if (!reported_ || *reported_ != done.compiled->plan) {
-        report_ = std::make_shared<const PlanReport>(planReport(done.compiled->plan));
-        reported_ = done.compiled->plan;
-    }
-    done.report = report_;
-
-    // Views, unless newer work already waits.
-    start = Clock::now();
-    const Compiled& compiled = *done.compiled;
-    const double scale = viewScale(job.document, job.dragging);
-    done.rung = job.dragging ? "dragging" : "at rest";
-    const bool sameScene = lastViewed_ && lastDone_.compiled && lastViewed_->dragging == job.dragging &&
-                           (lastDone_.compiled == done.compiled || (lastDone_.compiled->program == compiled.program &&
-                                                                    lastDone_.compiled->document == compiled.document));
-    for (const Eye eye : {Eye::left, Eye::right}) {
-        const auto index = static_cast<std::size_t>(eye == Eye::left ? 0 : 1);
-        if (!job.eyes[index]) continue;
-        if (sameScene && lastViewed_->eyes[index]) {
-            done.perceived[index] = lastDone_.perceived[index];
-            continue;
-        }
-        if (jobs_.waiting()) return;
-        ViewRequest request;
-        request.eye = eye;
-        request.scale = scale;
-        if (const auto view = perceived(compiled.document, compiled.plan, compiled.program, request)) {
-            done.perceived[index] = toSrgb8(*view);
-        } else {
-            done.refusal = view.error();
-        }
-    }
-    if (job.plain) {
-        const bool kept = lastViewed_ && lastViewed_->plain && lastViewed_->dragging == job.dragging &&
-                          lastDone_.compiled && lastDone_.compiled->document.scene == compiled.document.scene;
-        done.plain = kept ? lastDone_.plain : toSrgb8(plainView(compiled.document, scale));
-    }
-    if (job.cursor && compiled.plan.sweeps()) {
-        done.seam = seamProfile(compiled, *job.cursor, kSeamReach * compiled.document.scene.size().width);
-    }
-    done.view_ms = millisecondsSince(start);
-    done.viewsDone = true;
-    lastDone_ = done;
-    lastViewed_ = std::move(job);
-    publish(done);
+    return done;
 }
 
 }  // namespace ilf::app

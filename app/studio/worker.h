@@ -1,4 +1,4 @@
-// The worker: plans, compiles and previews the newest document on a thread of its own.
+// The worker: plans and compiles the newest document on a thread of its own, then has the viewer look at the program.
 #pragma once
 
 #include <array>
@@ -7,15 +7,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 #include <thread>
 
 #include "app/lens/lens_planner.h"
+#include "app/studio/viewer.h"
 #include "core/base/latest.h"
 #include "core/compile/compile.h"
-#include "core/perceived/perceived.h"
-#include "core/perceived/seam_profile.h"
-#include "core/plan/report.h"
 
 namespace ilf::app {
 
@@ -28,58 +25,43 @@ struct Job {
     bool dragging = false;                     ///< a gesture is going on: the view may be coarse
     std::array<bool, 2> eyes{};                ///< perceived views that are on screen, left and right
     bool plain = false;                        ///< the plain view is on screen
+    ViewRequest seeing;                        ///< see ViewJob
     std::optional<Point<CameraFrame>> cursor;  ///< for the seam profile
     Clock::time_point strokeAt;                ///< when the operator made the edit
 };
 
-/// An sRGB picture ready to be uploaded, 3 channels.
-using ViewPicture = Image<std::uint8_t>;
-
-/// What was worked out. Sent in steps: first the program (light must not wait for a preview), then the views.
+/// The program, on its way to light. What is seen of it follows by itself: light must not wait for a view.
 struct Done {
     std::uint64_t serial = 0;
     Clock::time_point strokeAt;
     std::optional<Error> refusal;              ///< no plan or no program, and why
     std::shared_ptr<const Compiled> compiled;  ///< of this serial, unless refused
-    std::array<ViewPicture, 2> perceived;      ///< empty: not asked for, or still to come
-    ViewPicture plain;
-    std::optional<SeamProfile> seam;
-    std::shared_ptr<const PlanReport> report;  ///< with the views; before that the one of the plan before
-    double plan_ms = 0.0, compile_ms = 0.0, view_ms = 0.0;
-    std::string rung;  ///< quality of the views: "dragging", "at rest"
-    bool viewsDone = false;
+    double plan_ms = 0.0, compile_ms = 0.0;
 };
-
-/// Views are computed at most this wide while a gesture goes on, and at rest. The perceived-view issue makes the engine
-/// fast enough to drop the difference.
-inline constexpr int kDraggingWidth = 320;
-inline constexpr int kRestWidth = 1024;
 
 class Worker {
 public:
-    /// `lens` is the simulated one that plans are made for where the rig names no calibration. `onDone` is called on
-    /// the worker's thread whenever `done` has something new (to wake the window).
-    explicit Worker(devices::SimulatedLens lens, std::function<void()> onDone = {});
+    /// `lens` is the simulated one that plans are made for where the rig names no calibration. `onNews` is called on
+    /// other threads whenever there is something new to take (to wake the window).
+    explicit Worker(devices::SimulatedLens lens, std::function<void()> onNews = {});
 
     void post(Job job) { jobs_.put(std::move(job)); }
     std::optional<Done> tryTake() { return done_.tryTake(); }
+    std::optional<Seen> tryTakeSeen() { return viewer_.tryTake(); }
 
 private:
     void run(std::stop_token stop);
-    void work(Job job);
+    Done program(const Job& job);
 
     Latest<Job> jobs_;
     Latest<Done> done_;
-    std::function<void()> onDone_;
+    std::function<void()> onNews_;
 
     // Owned by the worker's thread alone.
     LensPlanner planner_;
     std::shared_ptr<const Compiled> last_;
-    std::optional<Job> lastViewed_;
-    Done lastDone_;
-    std::shared_ptr<const PlanReport> report_;
-    std::optional<Plan> reported_;  ///< the plan of report_
 
+    Viewer viewer_;
     std::jthread thread_;  // last: joins before what it uses goes
 };
 

@@ -7,26 +7,8 @@
 namespace ilf::app {
 namespace {
 
-/// Uploads one tile, cut to the texture; `rgba` is a whole tile.
 void uploadTile(GlTexture& texture, int column, int row, const ui::OverlayTile& rgba) {
-    const int width = std::min(kTile, texture.size().width - column * kTile);
-    const int height = std::min(kTile, texture.size().height - row * kTile);
-    if (width == kTile) {
-        texture.uploadPart(column * kTile, row * kTile, width, height, rgba);
-        return;
-    }
-    std::vector<std::uint8_t> cut;
-    for (int y = 0; y < height; ++y) {
-        const auto* from = &rgba[static_cast<std::size_t>(y) * kTile * 4];
-        cut.insert(cut.end(), from, from + static_cast<std::size_t>(width) * 4);
-    }
-    texture.uploadPart(column * kTile, row * kTile, width, height, cut);
-}
-
-void uploadIfNew(GlTexture& texture, ViewPicture& shown, const ViewPicture& now, bool smooth) {
-    if (now.empty() || now.same(shown)) return;
-    texture.upload(now, smooth);
-    shown = now;
+    texture.uploadPart(column * kTile, row * kTile, kTile, kTile, rgba);
 }
 
 /// Uploads the tiles of a slot image that differ from what the texture shows.
@@ -63,11 +45,8 @@ void Pictures::show(const Document& document, const RegionId& selected) {
     shownRegions_ = now;
 }
 
-void Pictures::show(const Done& done, bool lights) {
-    for (std::size_t eye = 0; eye < 2; ++eye)
-        uploadIfNew(perceived_[eye], shownPerceived_[eye], done.perceived[eye], true);
-    uploadIfNew(plain_, shownPlain_, done.plain, true);
-    if (!lights || !done.compiled) return;
+void Pictures::showLights(const Done& done) {
+    if (!done.compiled) return;
     const auto& images = done.compiled->program.images;
     lights_.resize(images.size());
     shownLights_.resize(images.size());
@@ -75,6 +54,39 @@ void Pictures::show(const Done& done, bool lights) {
         uploadLight(lights_[i], shownLights_[i], images[i]);
         shownLights_[i] = images[i];
     }
+}
+
+bool Pictures::show(const Seen& seen, std::chrono::microseconds budget) {
+    if (!seen.plain.empty() && !seen.plain.same(shownPlain_)) {
+        plain_.upload(seen.plain, true);
+        shownPlain_ = seen.plain;
+    }
+    const auto until = std::chrono::steady_clock::now() + budget;
+    bool left = false;
+    for (std::size_t eye = 0; eye < perceived_.size(); ++eye) {
+        if (seen.perceived[eye]) left = !upload(perceived_[eye], seen.perceived[eye], until) || left;
+    }
+    return left;
+}
+
+bool Pictures::upload(EyeTexture& eye, const std::shared_ptr<const ScreenView>& view,
+                      std::chrono::steady_clock::time_point until) {
+    if (view == eye.complete) return true;
+    const std::size_t count = view->tiles.size();
+    if (eye.texture.reserve(view->size, true) || eye.tiles.size() != count) eye.tiles.assign(count, {});
+    // Goes on where the last frame stopped, so that a view that changes all over and often is shown all over.
+    for (std::size_t looked = 0; looked < count; ++looked, eye.next = (eye.next + 1) % count) {
+        const Box<ScreenTile>& tile = view->tiles[eye.next];
+        if (tile.same(eye.tiles[eye.next])) continue;
+        if (std::chrono::steady_clock::now() >= until) return false;
+        const int column = static_cast<int>(eye.next) % view->columns, row = static_cast<int>(eye.next) / view->columns;
+        eye.texture.uploadPart(column * ViewTile::kWidth, row * ViewTile::kHeight, ViewTile::kWidth, ViewTile::kHeight,
+                               *tile);
+        eye.tiles[eye.next] = tile;
+        ++tilesSent_;
+    }
+    eye.complete = view;
+    return true;
 }
 
 void Pictures::showLive(const Image<std::uint8_t>& frame) { live_.upload(frame, true); }
@@ -85,7 +97,7 @@ void Pictures::fill(ui::View& view) const {
     view.live = live_.handle();
     view.plain = plain_.handle();
     for (std::size_t eye = 0; eye < 2; ++eye)
-        view.perceived[eye] = perceived_[eye].handle();
+        view.perceived[eye] = perceived_[eye].texture.handle();
     for (const GlTexture& light : lights_)
         view.lights.push_back(light.handle());
 }

@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -79,7 +80,10 @@ bool GlTexture::reserve(Size size, bool smooth) {
 void GlTexture::uploadPart(int x, int y, int width, int height, std::span<const std::uint8_t> rgba) {
     glBindTexture(GL_TEXTURE_2D, id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, width);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, std::min(width, size_.width - x), std::min(height, size_.height - y),
+                    GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
 }  // namespace ilf::app

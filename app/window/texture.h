@@ -23,8 +23,7 @@ public:
     void upload(const Image<std::uint8_t>& image, bool smooth);
     /// Makes an empty (transparent) texture of `size` unless it already has it; true if it was made anew.
     bool reserve(Size size, bool smooth);
-    /// Replaces a rectangle; `rgba` has width * height * 4 values. What reaches beyond the texture must be cut by the
-    /// caller.
+    /// Replaces a rectangle, cut to the texture; `rgba` has width * height * 4 values.
     void uploadPart(int x, int y, int width, int height, std::span<const std::uint8_t> rgba);
     void clear();
 

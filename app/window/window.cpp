@@ -125,7 +125,7 @@ void Window::beginFrame() {
     ImGui::NewFrame();
 }
 
-void Window::endFrame() {
+void Window::draw() {
     ImGui::Render();
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_, &width, &height);
@@ -134,8 +134,9 @@ void Window::endFrame() {
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     if (std::exchange(capture_, false)) capture(width, height);  // before the swap: the back buffer is lost with it
-    glfwSwapBuffers(window_);
 }
+
+void Window::swap() { glfwSwapBuffers(window_); }
 
 void Window::capture(int width, int height) {
     const auto stride = static_cast<std::size_t>(width) * 3;

@@ -35,8 +35,10 @@ public:
     static void wake();
 
     void beginFrame();
-    /// Draws what was built and shows it.
-    void endFrame();
+    /// Submits what was built.
+    void draw();
+    /// Shows what was drawn. Software GL fills the pixels here.
+    void swap();
     /// The next frame is also kept as a picture, RGB; for `--screenshot`.
     void captureNext() { capture_ = true; }
     const Image<std::uint8_t>& captured() const { return captured_; }

@@ -25,18 +25,30 @@ const std::vector<float>& linearTable() {
 struct Codes {
     static constexpr int kSteps = 4096;
     std::array<float, 256> upper{};
-    std::array<std::uint8_t, kSteps> first{};
+    std::array<std::uint8_t, kSteps + 1> first{};
     Codes() {
         for (int c = 0; c < 255; ++c) {
             upper[static_cast<std::size_t>(c)] = static_cast<float>(linearFromSrgb((c + 0.5) / 255.0));
         }
         upper[255] = 2.0F;
-        for (int i = 0; i < kSteps; ++i) {
+        for (int i = 0; i <= kSteps; ++i) {
             const double code = 255.0 * srgbFromLinear(static_cast<double>(i) / kSteps);
             first[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(code));
         }
     }
+
+    /// NaN becomes 0; without branches, so that a loop over many keeps its pace.
+    std::uint8_t of(float linear) const {
+        const float v = linear > 0.0F ? std::min(linear, 1.0F) : 0.0F;
+        const auto code = first[static_cast<std::size_t>(v * static_cast<float>(kSteps))];
+        return static_cast<std::uint8_t>(code + (v >= upper[code] ? 1 : 0));
+    }
 };
+
+const Codes& codes() {
+    static const Codes table;
+    return table;
+}
 
 template <class To, class From, class Map>
 Image<To> mapped(const Image<From>& image, const Map& map) {
@@ -61,16 +73,21 @@ Radiance toLinear(const Picture& picture) {
     return mapped<float>(picture, [&](std::uint16_t v) { return table[v]; });
 }
 
-std::uint8_t srgb8(float linear) {
-    static const Codes codes;
-    if (!(linear > 0.0F)) return 0;
-    if (linear >= 1.0F) return 255;
-    const auto code = codes.first[static_cast<std::size_t>(linear * static_cast<float>(Codes::kSteps))];
-    return static_cast<std::uint8_t>(code + (linear >= codes.upper[code] ? 1 : 0));
-}
+std::uint8_t srgb8(float linear) { return codes().of(linear); }
 
 Image<std::uint8_t> toSrgb8(const Radiance& radiance) {
-    return mapped<std::uint8_t>(radiance, [](float v) { return srgb8(v); });
+    const Codes& table = codes();
+    return mapped<std::uint8_t>(radiance, [&](float v) { return table.of(v); });
+}
+
+void srgb8FromPlanes(const float* red, const float* green, const float* blue, std::size_t count, std::uint8_t* rgba) {
+    const Codes& table = codes();
+    for (std::size_t i = 0; i < count; ++i) {
+        rgba[4 * i] = table.of(red[i]);
+        rgba[4 * i + 1] = table.of(green[i]);
+        rgba[4 * i + 2] = table.of(blue[i]);
+        rgba[4 * i + 3] = 255;
+    }
 }
 
 Image<std::uint8_t> toBytes(const Picture& picture) {

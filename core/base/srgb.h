@@ -1,6 +1,7 @@
 // The sRGB transfer function, exactly, for single values and for whole pictures.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/base/image.h"
@@ -19,6 +20,8 @@ Radiance toLinear(const Picture& picture);
 std::uint8_t srgb8(float linear);
 /// Codes of a whole picture of linear light, same size and channels.
 Image<std::uint8_t> toSrgb8(const Radiance& radiance);
+/// Codes of `count` pixels of three planes of linear light, as RGBA with alpha 255: each as `srgb8` gives it.
+void srgb8FromPlanes(const float* red, const float* green, const float* blue, std::size_t count, std::uint8_t* rgba);
 /// The upper eight bits of a picture, rounded: v / 257.
 Image<std::uint8_t> toBytes(const Picture& picture);
 /// The way back: v * 257.
