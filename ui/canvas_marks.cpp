@@ -4,6 +4,7 @@
 
 #include "ui/canvas.h"
 #include "ui/icons.h"
+#include "ui/seam_marks.h"
 #include "ui/widgets.h"
 
 namespace ilf::ui {
@@ -185,6 +186,7 @@ void drawMarks(Panel& p, const Viewport& viewport, ImDrawList& draw, bool hovere
         if (!asSeen) drawBadges(marks);
         drawSelected(marks);
     }
+    drawBorderSeams(p, viewport, draw);
     if (p.view.computed.seam && !asSeen && !p.state.overlayHidden) {
         // Where the seam chart is taken, and along which line.
         const SeamProfile& seam = *p.view.computed.seam;
