@@ -11,8 +11,8 @@ namespace {
 
 /// Constant surfaces whose vergences differ by less are one surface.
 constexpr double kSameVergence = 1e-6;
-/// Less than this is left of a pixel only by rounding (of a mask's eight bits).
-constexpr double kNothing = 1.0 / 512.0;
+/// Less than this is left of a pixel only by rounding.
+constexpr double kNothing = 1e-9;
 /// A depth map is torn where neighbours differ by more than this in vergence ...
 constexpr double kLeastTear = 0.1;
 /// ... and a ray from the pupil's rim would pass them more than a pixel apart.
