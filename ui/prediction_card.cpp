@@ -74,8 +74,10 @@ void why(Panel& p, const PredictedRegion& made) {
     ImGui::PopFont();
     tooltip("Each source alone, the larger of its two directions; together the root of the sum of their squares.");
     if (!p.state.whyOpen) return;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ImGui::GetStyle().ItemSpacing.x, 0));
     for (std::size_t i = 0; i < kErrorSources; ++i)
         causeRow(p, static_cast<ErrorSource>(i), of);
+    ImGui::PopStyleVar();
 }
 
 void figureRows(Panel& p, const PredictedRegion& made) {
@@ -105,6 +107,14 @@ void figureRows(Panel& p, const PredictedRegion& made) {
 }
 
 }  // namespace
+
+CompactRows::CompactRows(const Panel& p) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(style.FramePadding.x, p.px(1)));
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(style.ItemSpacing.x, p.px(3)));
+}
+
+CompactRows::~CompactRows() { ImGui::PopStyleVar(2); }
 
 const PredictedRegion& predictedRegion(Panel& p, const Region& region, const RegionPlan& planned) {
     const Document& document = p.document();
@@ -150,6 +160,7 @@ void predictionCard(Panel& p, const Region& region, const RegionPlan& planned) {
     draw.AddRectFilled(from, {from.x + p.px(3), to.y}, made.said.warns ? colour::warn : lookColour(planned.look),
                        rounding);
     draw.ChannelsMerge();
+    const CompactRows compact(p);
     figureRows(p, made);
 }
 

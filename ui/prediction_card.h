@@ -20,6 +20,15 @@ struct PredictedRegion {
 /// `p.state.predicted`, brought up to date for a region.
 const PredictedRegion& predictedRegion(Panel& p, const Region& region, const RegionPlan& planned);
 
+/// While it lives, rows lie closer: for figures that are read, not typed.
+class CompactRows {
+public:
+    explicit CompactRows(const Panel& p);
+    ~CompactRows();
+    CompactRows(const CompactRows&) = delete;
+    CompactRows& operator=(const CompactRows&) = delete;
+};
+
 /// The card, and under it the other figures.
 void predictionCard(Panel& p, const Region& region, const RegionPlan& planned);
 

@@ -84,6 +84,7 @@ void distanceFields(Panel& p, const Region& region) {
 
 void derived(Panel& p, const RegionPlan& planned) {
     const Plan& plan = *p.plan();
+    const CompactRows compact(p);
     if (planned.look == Look::blur) {
         std::string least = planned.pMin ? formatted(*planned.pMin) : "blurred at rest";
         if (plan.driver == planned.id)

@@ -83,7 +83,7 @@ void Subject::findSeam(const Plan& plan, const RegionPlan& region, const Documen
     if (region.level && abs(region.levelPower - rest_) > kSamePower) most = nullptr;
     const Light displaced = most != nullptr ? *most : lightAt(plan, region);
     displaced_ = displaced.power;
-    displacedWrong_ = wrong(displaced);
+    displacedWrong_ = errors_.power.value_or(displaced.rmsError);  // real eyes magnify no differently
     if (abs(displaced_ - rest_) <= kSamePower) return;
     seamPart_ = 1.0;
     if (region.look == Look::neutral) {
