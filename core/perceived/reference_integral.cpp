@@ -85,8 +85,11 @@ void Integral::addHalf(ViewPixel pixel, std::size_t half, Colour& sum) const {
         at = {optics.pupilRadius * at.x, optics.pupilRadius * at.y};
     }
     std::vector<ChiefRay> chiefs;  // of flat surfaces
+    std::vector<Shown> shown;
     for (const Surface& surface : scene.surfaces) {
-        if (surface.kind == Surface::Kind::flat) chiefs.push_back(chiefRay(optics, view, 1.0 / surface.vergence.at));
+        if (surface.kind != Surface::Kind::flat) break;
+        chiefs.push_back(chiefRay(optics, view, 1.0 / surface.vergence.at));
+        shown.emplace_back(optics, 1.0 / surface.vergence.at);
     }
     const bool sloped = chiefs.size() < scene.surfaces.size();
 
@@ -131,8 +134,7 @@ void Integral::addHalf(ViewPixel pixel, std::size_t half, Colour& sum) const {
                 hits.clear();
                 for (std::size_t k = 0; k < chiefs.size(); ++k) {
                     const Surface& surface = scene.surfaces[k];
-                    const Pair at = traced(optics, moments.back[i * chiefs.size() + k], chiefs[k], pupil[i], surplus,
-                                           1.0 / surface.vergence.at);
+                    const Pair at = traced(shown[k], moments.back[i * chiefs.size() + k], chiefs[k], pupil[i], surplus);
                     if (misses(surface, at)) continue;
                     const Met what = met(frame, surface, light, at, surface.vergence.at);
                     if (sloped) {

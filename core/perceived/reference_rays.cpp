@@ -100,21 +100,8 @@ Result<Optics> optics(const Document& document, const Plan& plan, const ViewRequ
     return made;
 }
 
-Pair metresOf(const Optics& optics, Pair view, double distance) {
-    // The picture is taken from the pupil's plane: a pixel is 1 / f_px of slope there.
-    const double metres = (distance + optics.lensToPupil) / optics.focalPixels;
-    return {(view.x / optics.frame.perPictureX - optics.axis.x) * metres - optics.lens.x,
-            (view.y / optics.frame.perPictureY - optics.axis.y) * metres - optics.lens.y};
-}
-
-Pair viewOf(const Optics& optics, Pair metres, double distance) {
-    const double pixels = optics.focalPixels / (distance + optics.lensToPupil);
-    return {(optics.axis.x + (metres.x + optics.lens.x) * pixels) * optics.frame.perPictureX,
-            (optics.axis.y + (metres.y + optics.lens.y) * pixels) * optics.frame.perPictureY};
-}
-
 ChiefRay chiefRay(const Optics& optics, Pair view, double distance) {
-    const Pair at = metresOf(optics, view, distance);
+    const Pair at = Shown(optics, distance).metres(view);
     // The chief ray passes the pupil's centre, or, if the eye turns along, its centre of rotation behind it.
     const RayMatrix back = backTo(distance, optics.restPower, optics.lensToPupil) * travel(-optics.turning);
     const Pair through = optics.turning > 0.0 ? Pair{} : optics.pupil;

@@ -49,17 +49,26 @@ struct ChiefRay {
 };
 ChiefRay chiefRay(const Optics& optics, Pair view, double distance);
 
-/// Where the picture shows a point of a surface: metres from the lens's axis, there and back.
-Pair viewOf(const Optics& optics, Pair metres, double distance);
-Pair metresOf(const Optics& optics, Pair view, double distance);
+/// A plane across the axis, as the picture shows it: the picture is taken from the pupil's plane, where a pixel is
+/// 1 / f_px of slope. Heights on it, in metres from the lens's axis, to view pixels and back.
+struct Shown {
+    double perMetreX, perMetreY, axisX, axisY;
+
+    Shown(const Optics& optics, double distance)
+        : perMetreX(optics.focalPixels / (distance + optics.lensToPupil) * optics.frame.perPictureX),
+          perMetreY(optics.focalPixels / (distance + optics.lensToPupil) * optics.frame.perPictureY),
+          axisX(optics.axis.x * optics.frame.perPictureX + optics.lens.x * perMetreX),
+          axisY(optics.axis.y * optics.frame.perPictureY + optics.lens.y * perMetreY) {}
+    Pair view(double x, double y) const { return {axisX + x * perMetreX, axisY + y * perMetreY}; }
+    Pair metres(Pair view) const { return {(view.x - axisX) / perMetreX, (view.y - axisY) / perMetreY}; }
+};
 
 /// The ray that meets the pupil `aside` its centre (metres) and the retina where the chief ray does, traced by `back`
-/// (backTo this distance); `surplus` of its colour. Gives the view position of the point of the surface it comes from.
-inline Pair traced(const Optics& optics, const RayMatrix& back, const ChiefRay& chief, Pair aside, double surplus,
-                   double distance) {
+/// (backTo the plane that is shown); `surplus` of its colour. Gives the view position of the point it comes from.
+inline Pair traced(const Shown& shown, const RayMatrix& back, const ChiefRay& chief, Pair aside, double surplus) {
     const Ray across = back * Ray{chief.height.x + aside.x, chief.slope.x + surplus * aside.x};
     const Ray down = back * Ray{chief.height.y + aside.y, chief.slope.y + surplus * aside.y};
-    return viewOf(optics, {across.height, down.height}, distance);
+    return shown.view(across.height, down.height);
 }
 
 /// Whether that ray passes the lens outside its rim.

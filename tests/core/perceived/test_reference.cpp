@@ -28,7 +28,7 @@ double apart(const ReferencePixels& a, const ReferencePixels& b) { return agreem
 
 TEST_CASE("reference: more rays are less noise, and the floor is about what a better picture finds") {
     const Reference reference = referenceOf(swept());
-    const auto pixels = somePixels({30, 20, 110, 100}, 400);
+    const auto pixels = somePixels({30, 20, 110, 100}, 200);
     const auto best = *reference.pixels(pixels, {16384, 9});
     double before = 0.0;
     for (const int samples : {64, 256, 1024, 4096}) {

@@ -138,7 +138,7 @@ TEST_CASE("reference: a plane is met where a ray crosses it") {
     const Played scene = through(d, power);
     const AffineVergence v = **affineVergence(*d.background);
     const Radiance picture = plainView(d, 1.0);
-    const auto pixels = somePixels({40, 30, 120, 90}, 300);
+    const auto pixels = somePixels({40, 30, 120, 90}, 150);
     // Behind the lens a ray has the height p and the slope -(x - x0) / f + p surplus; before it h and u, so that the
     // point at w before the lens is h - w u. With 1 / w = v(x, y) there: a square equation in w.
     std::vector<std::array<double, 3>> model;
@@ -158,7 +158,7 @@ TEST_CASE("reference: a plane is met where a ray crosses it") {
                             kMiddleY + f * (hy - w * uy) / (w + kBehind));
         }));
     }
-    const ReferencePixels seen = rays(scene, lookingHere(), pixels, 8192);
+    const ReferencePixels seen = rays(scene, lookingHere(), pixels, 4096);
     const double dB = agreement(seen, model);
     MESSAGE("plane: ", dB, " dB, noise floor ", seen.noiseFloor_dB);
     CHECK(dB > 70.0);
@@ -166,7 +166,7 @@ TEST_CASE("reference: a plane is met where a ray crosses it") {
     // Found on the way by another method: the same desk as a depth map.
     const Document measured =
         withDepth(lookingAt(texture(kSmall, 7), 0.5, 0.5), [&](double x, double y) { return 1.0 / v(x, y); });
-    const double asMap = agreement(rays(through(measured, power), lookingHere(), pixels, 8192), seen.radiance);
+    const double asMap = agreement(rays(through(measured, power), lookingHere(), pixels, 4096), seen.radiance);
     MESSAGE("the same as a depth map: ", asMap, " dB");
     CHECK(asMap > 70.0);
 }
@@ -188,10 +188,10 @@ TEST_CASE("reference: a depth map is torn where a near thing ends") {
         return x > card.x0 && x < card.x1 && y > card.y0 && y < card.y1 ? 0.4 : 0.9;
     });
     flats.regions.push_back(Box<Region>(region("card", Look::blur, 0.4, maskIn(card))));
-    const auto pixels = somePixels({30, 20, 120, 100}, 500);
+    const auto pixels = somePixels({30, 20, 120, 100}, 250);
     for (const double power : {0.0, 2.0}) {
-        const ReferencePixels two = rays(through(flats, power), lookingHere(), pixels, 2048);
-        const ReferencePixels one = rays(through(map, power), lookingHere(), pixels, 2048);
+        const ReferencePixels two = rays(through(flats, power), lookingHere(), pixels, 1024);
+        const ReferencePixels one = rays(through(map, power), lookingHere(), pixels, 1024);
         const double dB = agreement(one, two.radiance);
         MESSAGE("card before a wall, as a depth map: ", dB, " dB, noise floor ", two.noiseFloor_dB);
         CHECK(dB > 45.0);
