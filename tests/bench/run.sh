@@ -1,20 +1,46 @@
 #!/usr/bin/env bash
-# Runs every benchmark, writes tests/bench/results.csv and results.png, and puts the table into README.md.
-# Usage: tests/bench/run.sh [BUILD_DIRECTORY]   (default: build/release)
-# ILF_BENCH_ARGS are passed to every benchmark.
+# Runs every benchmark, writes results.csv and results.png, perceived.csv and perceived.png here, and puts their tables into
+# README.md.
+# Usage: tests/bench/run.sh [BUILD_DIRECTORY] [perceived]   (default: build/release, all of them; `perceived`: that one)
+# ILF_BENCH_ARGS are passed to every benchmark but the perceived view's, ILF_PERCEIVED_ARGS to that one.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=${1:-build/release}
+only=${2:-}
 out=tests/bench
+case "$only" in "" | perceived) ;; *) sed -n '2,6p' "$0"; exit 2 ;; esac
 
 for tool in jq gnuplot; do
     command -v "$tool" >/dev/null || { echo "$tool is missing: ./test.sh --full installs it (section [bench])."; exit 1; }
 done
-cmake --build "$build" --target benches
+cmake --build "$build" --target "bench${only:+_}${only:-es}"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+
+# into_readme NAME TABLE: the text between the two markers of that name is replaced.
+into_readme() {
+    awk -v table="$2" -v name="$1" '
+        index($0, "<!-- " name ":begin -->") { print; while ((getline line < table) > 0) print line; skipping = 1; next }
+        index($0, "<!-- " name ":end -->") { skipping = 0 }
+        !skipping { print }' README.md > "$work/README.md"
+    cp "$work/README.md" README.md
+}
+measured_on() {
+    echo "Measured $(date -u +%F) on $(nproc) cores, $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1)."
+}
+
+echo "== bench_perceived"
+# shellcheck disable=SC2086
+"$build/bin/bench_perceived" --csv "$out/perceived.csv" --markdown "$work/perceived.md" ${ILF_PERCEIVED_ARGS:-}
+"$out/perceived_plot.sh" "$out/perceived.csv" "$out/perceived.png"
+{ cat "$work/perceived.md"; echo; measured_on; } > "$work/perceived_table.md"
+into_readme perceived "$work/perceived_table.md"
+echo "wrote $out/perceived.csv, $out/perceived.png and the table in README.md"
+[ -z "$only" ] || exit 0
+
 for bench in "$build"/bin/bench_*; do
+    [ "$(basename "$bench")" != bench_perceived ] || continue
     echo "== $(basename "$bench")"
     # shellcheck disable=SC2086
     "$bench" ${ILF_BENCH_ARGS:-} --benchmark_out="$work/$(basename "$bench").json" --benchmark_out_format=json >/dev/null
@@ -61,11 +87,7 @@ EOF
         function t(us) { return us == "" ? "" : us >= 1000 ? sprintf("%.2f ms", us / 1000) : us >= 1 ? sprintf("%.1f us", us) : us >= 0.01 ? sprintf("%.0f ns", us * 1000) : sprintf("%.2f ns", us * 1000) }
         { gsub("/process_time", "", $2); printf "| %s: %s | %s | %s | %s | %s | %s %s |\n", $1, $2, t($3), t($4), t($5), $6 == "" ? "" : sprintf("%.0fx", $6), $7 == "" ? "" : sprintf("%.3g", $7), $8 }'
     echo
-    echo "Measured $(date -u +%F) on $(nproc) cores, $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1). Simulated devices."
+    echo "$(measured_on) Simulated devices."
 } > "$work/table.md"
-awk -v table="$work/table.md" '
-    /<!-- bench:begin -->/ { print; while ((getline line < table) > 0) print line; skipping = 1; next }
-    /<!-- bench:end -->/ { skipping = 0 }
-    !skipping { print }' README.md > "$work/README.md"
-cp "$work/README.md" README.md
+into_readme bench "$work/table.md"
 echo "wrote $out/results.csv, $out/results.png and the table in README.md"
