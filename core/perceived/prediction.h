@@ -75,7 +75,7 @@ struct RegionPrediction {
     Predicted snellenLooked;   ///< and its acuity
     Predicted ambientLeak;     ///< what ambient light adds to the contrast left, negative where it takes away
     Predicted seam;            ///< largest |I - 1| across its border with light of another level, see `seamOf`
-    bool seams = false;        ///< there is such a border (none without a sweep)
+    bool seams = false;        ///< `seam` is predicted: light is displaced, and blended in closed form or not at all
     double light = 1.0;        ///< of steady light
     double sharpShare = 1.0;   ///< of its light that falls while the lens shows it sharp: 1, 0 or, neutral, in between
     Legibility print = Legibility::readable;
@@ -115,8 +115,9 @@ double seamOf(Metre width, Metre meant, Metre seen, Metre shift);
 /// contrast comes back behind its zeros.
 ///
 /// Seams: the painted border is blended for an eye in the middle of the two lens axes; each eye is half their distance
-/// off, which shifts what it sees by (s - 1) times that. Blending in object coordinates, and none, leave (s - 1) times
-/// the way to the optical centre. Where one surface stands before another nothing is blended; that is not predicted.
+/// off, which shifts what it sees by (s - 1) times that. No blending leaves (s - 1) times the way to the optical
+/// centre, taken at the region's farthest corner. The paper's ramps are as wide as the seam they hide, which differs
+/// all along a border: not predicted. Where one surface stands before another nothing is blended; not predicted either.
 RegionPrediction predicted(const Plan& plan, const RegionPlan& region, const Document& document,
                            const PredictionErrors& errors = {});
 

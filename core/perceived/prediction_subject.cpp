@@ -72,7 +72,9 @@ void Subject::findPlace(const Plan& plan, const RegionPlan& region, const Docume
 }
 
 void Subject::findSeam(const Plan& plan, const RegionPlan& region, const Document& document) {
-    if (!plan.sweeps()) return;
+    blending_ = document.seam;
+    const bool none = blending_.blending == Blending::none;
+    if (!plan.sweeps() || (blending_.blending != Blending::closedForm && !none)) return;
     // Its own light where that is displaced; else the light it meets that is displaced most.
     const Light* most = nullptr;
     std::vector<Light> met;
@@ -90,7 +92,6 @@ void Subject::findSeam(const Plan& plan, const RegionPlan& region, const Documen
         const double sharp = sharpShare(assumed_, Eyes::on);
         seamPart_ = std::max(sharp, 1.0 - sharp);
     }
-    blending_ = document.seam;
     axesApart_ = abs(document.wearer.eyeSpacing());
     const Region* painted = findRegion(document, region.id);
     const double perMetre = document.scene.picture ? pixelsPerMetre(document, assumed_.distance) : 0.0;
@@ -149,21 +150,18 @@ Subject::Contrast Subject::contrast(const World& world, Eyes eyes) {
 }
 
 double Subject::seam(const World& world) const {
-    const Metre width = blending_.blending == Blending::none ? 0.0_m : blending_.feather;
+    const bool blended = blending_.blending == Blending::closedForm;
     const auto radius = [&](const World& w, Dioptre power) {
         EyeOptics eye = eye_;
         eye.pupil = w.pupil;
         return blurRadiusOnSurface(eye, w.distance, rest_, power);
     };
     const Dioptre power = displaced_ + world.power * displacedWrong_;
-    const double meant = magnification(eye_, assumed_.distance, rest_, displaced_),
+    const double meant = blended ? magnification(eye_, assumed_.distance, rest_, displaced_) : 1.0,
                  s = magnification(eye_, world.distance, rest_, power);
-    // Blended for the middle of the axes at the magnification meant; in object coordinates for none at all.
-    const bool apparent = blending_.blending == Blending::closedForm || blending_.blending == Blending::linearPerceived;
-    const Metre shift = 0.5 * std::abs(s - 1.0) * axesApart_ + std::abs(apparent ? s - meant : s - 1.0) * reach_ +
-                        abs(world.registration);
-    const Metre planned = blending_.blending == Blending::closedForm ? radius(assumed_, displaced_) : 0.0_m;
-    return seamPart_ * seamOf(width, planned, radius(world, power), shift);
+    const Metre shift = 0.5 * std::abs(s - 1.0) * axesApart_ + std::abs(s - meant) * reach_ + abs(world.registration);
+    return seamPart_ * seamOf(blended ? blending_.feather : 0.0_m, blended ? radius(assumed_, displaced_) : 0.0_m,
+                              radius(world, power), shift);
 }
 
 std::optional<Metre> Subject::attendedTolerance() const {

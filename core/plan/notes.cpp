@@ -101,7 +101,7 @@ void addAmbientNotes(const Plan& plan, std::vector<PlanNote>& notes) {
     PlanNote privacy{NoteTopic::privacy, most > kHidesPrint, {}, kAmbientModel};
     const double dark = contrastLeft(plan, *worst).dark;
     if (most <= kHidesPrint) {
-        privacy.text = "Through the glasses at most " + percent(most) +
+        privacy.text = "Looking through the glasses at what is focused, at most " + percent(most) +
                        " of the contrast of 3 mm print is left in blurred "
                        "areas. People without glasses read all of it.";
     } else if (dark <= kHidesPrint) {

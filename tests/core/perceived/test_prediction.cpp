@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/compile/compile.h"
+#include "core/perceived/seam_profile.h"
 #include "core/plan/notes.h"
+#include "tests/core/perceived/small_scene.h"
 #include "tests/support/law.h"
 
 using namespace ilf;
@@ -237,6 +240,32 @@ TEST_CASE("prediction: two lens axes leave a seam, one axis none, and none witho
     const RegionPrediction still = planned({object("book", 0.5, Look::focus)}).of("book");
     CHECK_FALSE(still.seams);
     CHECK(still.seam.value == 0.0);
+}
+
+TEST_CASE("prediction: a seam is as strong as the light an eye receives across a compiled border") {
+    // A blurred strip on a wall, 2 px/mm, its border 100 mm right of the middle of both lens axes.
+    constexpr Size kWide{800, 300};
+    Document d = test::document(
+        {test::region("strip", Look::blur, 0.5, test::maskOf(kWide, [](int x, int) { return x < 600; }))}, Look::focus,
+        0.5, kWide);
+    d.scene.scale.focalPixels = 2000.0 * 0.52;
+    d.wearer.confusion.preset = CircleOfConfusion::Preset::oneArcmin;
+    const auto worst = [&](Blending blending) {
+        d.seam.blending = blending;
+        const auto compiled = compile(d, *plan(planInput(d)));
+        REQUIRE(compiled);
+        const auto profile = seamProfile(*compiled, {600.0, 150.0}, 10.0);
+        REQUIRE(profile);
+        return std::pair(std::max(profile->left.worstWeberAfter, profile->right.worstWeberAfter),
+                         predicted(compiled->plan, compiled->plan.regions[0], d));
+    };
+    const auto [blended, strip] = worst(Blending::closedForm);
+    CHECK(blended > 0.1);
+    CHECK(strip.seam.value == doctest::Approx(blended).epsilon(0.1));
+    const auto [hard, hardStrip] = worst(Blending::none);
+    CHECK(hardStrip.seam.value >= hard - 0.01);
+    CHECK(hardStrip.seam.value <= 1.0 + 1e-12);
+    CHECK_FALSE(worst(Blending::linearPerceived).second.seams);
 }
 
 TEST_CASE("prediction: who looks straight at a blurred region sees it least blurred") {
