@@ -110,6 +110,9 @@ OverlayTile overlayTile(const Document& document, const RegionId& selected, int 
     const Owners owners(regions, size, column, row, reach);
     if (std::all_of(owners.owner.begin(), owners.owner.end(), [](int o) { return o == kNone; })) return out;
 
+    const int first = owners.owner.front();
+    const bool edgeless = std::all_of(owners.owner.begin(), owners.owner.end(), [&](int o) { return o == first; });
+
     const int hatchPeriod = 14 * u, hatchWidth = 2 * u, dotPeriod = 8 * u;
     for (int y = 0; y < kTile; ++y) {
         for (int x = 0; x < kTile; ++x) {
@@ -119,7 +122,7 @@ OverlayTile overlayTile(const Document& document, const RegionId& selected, int 
             const bool bright = region.id == selected;
             const int px = column * kTile + x, py = row * kTile + y;
             double alpha = 0.0;
-            if (owners.onEdge(x, y)) {
+            if (!edgeless && owners.onEdge(x, y)) {
                 // Dots along either axis keep a dotted line dotted whichever way the border runs.
                 const bool dot =
                     ((px + py) % dotPeriod) < dotPeriod / 2 && ((px - py + (1 << 20)) % dotPeriod) < dotPeriod * 3 / 4;

@@ -26,7 +26,7 @@ constexpr int kSettlingFrames = 3;
 /// A screenshot does not wait longer than this for the core.
 constexpr double kScreenshotPatience_s = 15.0;
 /// Sending a whole view to the GPU may take longer than a frame has; the rest follows in the next ones.
-constexpr std::chrono::microseconds kUploadBudget{2000};
+constexpr std::chrono::microseconds kUploadBudget{1500};
 /// A view computed while dragging is refined once nothing has changed for this long.
 constexpr double kRestAfter_s = 0.08;
 
@@ -146,9 +146,10 @@ void Studio::frame() {
 
     showTitle();
     pictures_.show(editor_.document(), ui_.selected);
+    times_.lap(FrameStage::marks);
     const bool partly = pictures_.show(seen_, kUploadBudget);
     if (ui::wants(ui_).lights) pictures_.showLights(done_);
-    times_.lap(FrameStage::upload);
+    times_.lap(FrameStage::views);
     window_->beginFrame();
     const ui::Requests requests = ui::studio(view(), ui_, input);
     times_.lap(FrameStage::build);
@@ -195,7 +196,6 @@ void Studio::collect() {
 }
 
 void Studio::takeDone(Done done) {
-    if (done.compiled && done.compiled != done_.compiled) doneHash_ = contentHash(done.compiled->program);
     done_ = std::move(done);
     quietFrames_ = 0;
 }
@@ -296,12 +296,12 @@ void Studio::sendIfDue() {
         return;
     }
     const bool taking = takeSerial_ && done_.serial >= *takeSerial_;
-    const bool live = liveTake_ && done_.compiled != sent_ && doneHash_ != sentHash_;
+    const bool live = liveTake_ && done_.compiled != sent_ && done_.hash != sentHash_;
     if (!taking && !live) return;
     if (taking) takeSerial_.reset();
     if (live) takenRevision_ = editor_.history().revision();
     sent_ = done_.compiled;
-    sentHash_ = doneHash_;
+    sentHash_ = done_.hash;
     ++revision_;
     // From the stroke, or from TAKE when that came later.
     const auto asked = taking ? std::max(done_.strokeAt, takeAt_) : done_.strokeAt;
@@ -366,7 +366,7 @@ ui::View Studio::view() const {
 int Studio::editsSinceTake() const {
     const auto& history = editor_.history();
     if (core_.light == devices::LightMode::slotted && done_.compiled && done_.serial == editor_.serial() &&
-        doneHash_ == core_.contentHashPlayed) {
+        done_.hash == core_.contentHashPlayed) {
         return 0;  // the same light, however it came about
     }
     return std::max(1, static_cast<int>(history.revision() - takenRevision_));

@@ -103,8 +103,7 @@ private:
     std::uint64_t takeHold_ = 0;  ///< the safe light it may end: the one that was held when it was asked for
     Clock::time_point takeAt_;
     std::uint64_t sentHash_ = 0, sentSerial_ = 0;
-    std::uint64_t doneHash_ = 0;  ///< content of done_.compiled's program
-    bool playAtStart_ = false;    ///< a project that was named at the start plays once the core is there
+    bool playAtStart_ = false;  ///< a project that was named at the start plays once the core is there
     std::shared_ptr<const Compiled> sent_;
     std::size_t takenRevision_ = 0;  ///< History::revision at the last take
     bool liveTake_ = false;

@@ -64,6 +64,11 @@ Done Worker::program(const Job& job) {
         done.refusal = planned.error();
     }
     done.compile_ms = millisecondsSince(start);
+    if (done.compiled && done.compiled != hashed_) {
+        hashed_ = done.compiled;
+        hash_ = contentHash(hashed_->program);
+    }
+    done.hash = done.compiled ? hash_ : 0;
     return done;
 }
 

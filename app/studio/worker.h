@@ -36,6 +36,7 @@ struct Done {
     Clock::time_point strokeAt;
     std::optional<Error> refusal;              ///< no plan or no program, and why
     std::shared_ptr<const Compiled> compiled;  ///< of this serial, unless refused
+    std::uint64_t hash = 0;                    ///< content of its program
     double plan_ms = 0.0, compile_ms = 0.0;
 };
 
@@ -60,6 +61,8 @@ private:
     // Owned by the worker's thread alone.
     LensPlanner planner_;
     std::shared_ptr<const Compiled> last_;
+    std::shared_ptr<const Compiled> hashed_;
+    std::uint64_t hash_ = 0;  ///< of hashed_
 
     Viewer viewer_;
     std::jthread thread_;  // last: joins before what it uses goes
