@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/optics/eye.h"
 #include "core/perceived/border_search.h"
 
 namespace ilf::app {
@@ -20,20 +21,28 @@ double decibels(double squares, std::int64_t count) {
 
 }  // namespace
 
-Result<RayView> byRays(const Compiled& compiled, const ViewRequest& request, int samples) {
-    const auto half = [&](unsigned seed) {
-        return perceivedReference(compiled.document, compiled.plan, compiled.program, request, std::max(1, samples / 2),
-                                  seed);
-    };
-    const auto one = half(1), other = half(2);
-    if (!one) return tl::unexpected(one.error());
-    if (!other) return tl::unexpected(other.error());
-    std::vector<float> mean(one->pixels().size());
-    std::transform(one->pixels().begin(), one->pixels().end(), other->pixels().begin(), mean.begin(),
-                   [](float a, float b) { return 0.5F * (a + b); });
-    // Half the difference of two independent estimates has the variance of their mean: a quarter of the difference's.
-    const double quarter_dB = 20.0 * std::log10(2.0);
-    return RayView{Radiance(one->size(), one->channels(), std::move(mean)), psnr(*one, *other) + quarter_dB};
+int bandReach(const Compiled& compiled, const ViewRequest& request) {
+    const Plan& plan = compiled.plan;
+    const EyeOptics& eye = plan.input.eye;
+    const RegionPlan* attended = nullptr;
+    for (const RegionPlan& region : plan.regions) {
+        if (!plan.input.camera && request.attending == region.id) attended = &region;
+    }
+    double largest = 0.0;
+    for (const RegionPlan& region : plan.regions) {
+        for (const Level& level : plan.levels) {
+            for (const Metre distance : {region.nearest, region.farthest}) {
+                const Dioptre off = attended == nullptr ? defocus(eye, distance, level.power)
+                                                        : defocusAttending(eye, distance, level.power,
+                                                                           attended->nearest, attended->levelPower);
+                const double seen = magnification(eye, distance, plan.focusPower, level.power) /
+                                    magnification(eye, distance, {}, level.power);
+                const double angle = 0.5 * std::abs(eye.pupil * off) * seen;
+                if (std::isfinite(angle)) largest = std::max(largest, angle);
+            }
+        }
+    }
+    return static_cast<int>(std::ceil(largest * compiled.document.scene.scale.focalPixels * request.scale + 2.0));
 }
 
 Image<std::uint8_t> bordersOf(const Compiled& compiled, Size view, int reach) {
@@ -49,10 +58,11 @@ Image<std::uint8_t> bordersOf(const Compiled& compiled, Size view, int reach) {
     }
     std::vector<std::uint8_t> band(width * height, 0);
     const auto mark = [&](int x, int y) {
-        const int x1 = std::min(view.width, x + reach + 1), y1 = std::min(view.height, y + reach + 1);
+        const int y1 = std::min(view.height, y + reach + 1);
         for (int j = std::max(0, y - reach); j < y1; ++j) {
+            const int half = static_cast<int>(std::sqrt(reach * reach - (j - y) * (j - y)));
             auto* row = band.data() + static_cast<std::size_t>(j) * width;
-            std::fill(row + std::max(0, x - reach), row + x1, std::uint8_t{255});
+            std::fill(row + std::max(0, x - half), row + std::min(view.width, x + half + 1), std::uint8_t{255});
         }
     };
     for (int y = 0; y < view.height; ++y) {

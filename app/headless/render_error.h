@@ -9,16 +9,10 @@
 
 namespace ilf::app {
 
-/// A view by brute force.
-struct RayView {
-    Radiance radiance;
-    /// PSNR that a perfect view would have against it, since rays are drawn by chance; infinite where nothing is.
-    double noiseFloor_dB = 0.0;
-};
-/// `samples` rays a pixel, in two halves, whose difference tells the noise of their mean.
-Result<RayView> byRays(const Compiled& compiled, const ViewRequest& request, int samples);
+/// Largest radius of a blur circle in the view, in its pixels, + 2: as far as a border between regions reaches.
+int bandReach(const Compiled& compiled, const ViewRequest& request);
 
-/// 255 where the border between two regions is at most `reach` pixels of the view away (along x and y), else 0.
+/// 255 where the border between two regions is at most `reach` pixels of the view away, else 0.
 Image<std::uint8_t> bordersOf(const Compiled& compiled, Size view, int reach);
 
 struct ErrorFigures {

@@ -1,18 +1,20 @@
 #include "app/headless/render_view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "app/headless/render_error.h"
 #include "app/pictures_of.h"
 #include "core/base/srgb.h"
+#include "core/perceived/reference.h"
 #include "ilf/version.h"
 
 namespace ilf::app {
 namespace {
 
-/// Half of an error map's band, in pixels of the whole picture.
-constexpr double kBandReach = 12.0;
+/// Of the reference's rays: the same every time.
+constexpr unsigned kSeed = 1;
 
 std::string number(double value) {
     char text[32];
@@ -40,7 +42,17 @@ void tell(projects::PictureFacts& facts, const Compiled& compiled, const ViewReq
     facts.emplace_back("scale", number(request.scale));
 }
 
+std::string spokenNoise(double floor_dB, int samples) {
+    if (std::isinf(floor_dB)) return "nothing in the reference is drawn by chance";
+    return "the reference's own noise is " + number(floor_dB) + " dB at " + std::to_string(samples) + " rays a pixel";
+}
+
 std::string spokenEye(const ViewRequest& request) { return request.eye == Eye::left ? "left eye" : "right eye"; }
+
+Result<ReferencePicture> byRays(const Compiled& compiled, const ViewRequest& request, int samples) {
+    return Reference::of(compiled.document, compiled.plan, compiled.program, request)
+        .and_then([&](const Reference& reference) { return reference.picture({samples, kSeed}); });
+}
 
 Result<Rendered> seen(const Compiled& compiled, const Shot& shot, const ViewRequest& request,
                       const RenderOptions& options) {
@@ -52,8 +64,7 @@ Result<Rendered> seen(const Compiled& compiled, const Shot& shot, const ViewRequ
         auto rays = byRays(compiled, request, options.samples);
         if (!rays) return tl::unexpected(rays.error());
         result.spoken += "simulated by brute force";
-        result.figures = "the reference's own noise is " + number(rays->noiseFloor_dB) + " dB at " +
-                         std::to_string(options.samples) + " rays a pixel";
+        result.figures = spokenNoise(rays->noiseFloor_dB, options.samples);
         result.facts.emplace_back("samples", std::to_string(options.samples));
         result.facts.emplace_back("noiseFloor_dB", number(rays->noiseFloor_dB));
         result.pixels = projects::LightPicture{std::move(rays->radiance)};
@@ -73,7 +84,7 @@ Result<Rendered> error(const Compiled& compiled, const Shot& shot, const ViewReq
     if (!view) return tl::unexpected(view.error());
     const auto rays = byRays(compiled, request, options.samples);
     if (!rays) return tl::unexpected(rays.error());
-    const int reach = static_cast<int>(std::lround(std::max(1.0, kBandReach * request.scale)));
+    const int reach = bandReach(compiled, request);
     ErrorMap map = errorMap(*view, rays->radiance, bordersOf(compiled, view->size(), reach));
     const ErrorFigures& figures = map.figures;
     const double white = options.white > 0.0 ? options.white : whiteFor(figures.worst);
@@ -92,9 +103,8 @@ Result<Rendered> error(const Compiled& compiled, const Shot& shot, const ViewReq
     result.figures = "PSNR " + spokenPsnr(figures.psnr_dB, rays->noiseFloor_dB) + "; " +
                      spokenPsnr(figures.bandPsnr_dB, rays->noiseFloor_dB) + " within " + std::to_string(reach) +
                      " pixels of a border; worst pixel " + number(figures.worst) + " at " +
-                     std::to_string(figures.worstX) + "," + std::to_string(figures.worstY) +
-                     "; the reference's own noise is " + number(rays->noiseFloor_dB) + " dB at " +
-                     std::to_string(options.samples) + " rays a pixel";
+                     std::to_string(figures.worstX) + "," + std::to_string(figures.worstY) + "; " +
+                     spokenNoise(rays->noiseFloor_dB, options.samples);
     result.pixels = projects::DifferencePicture{std::move(map.difference), white};
     return result;
 }

@@ -14,7 +14,7 @@
 #include "app/headless/simulated_core.h"
 #include "app/pictures_of.h"
 #include "core/base/srgb.h"
-#include "core/perceived/perceived.h"
+#include "core/perceived/view_engine.h"
 #include "ilf/version.h"
 #include "projects/pictures.h"
 
@@ -24,18 +24,38 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Every view and every distinct slot image, as PNG. Gives the names written.
-Result<std::vector<std::string>> writePictures(const Compiled& compiled, const fs::path& directory) {
+/// What a view took, and why the rest of it was not worked out.
+json countersOf(Eye eye, const PerceivedView& view) {
+    const ViewCounters& c = view.counters;
+    return {{"eye", eye == Eye::left ? "left" : "right"},
+            {"rung", std::string(word(view.rung))},
+            {"tiles", c.tiles},
+            {"computed", c.computed},
+            {"skipped", {{"unchanged", c.unchanged}, {"plain", c.plain}, {"dark", c.dark}}},
+            {"lights", c.lights},
+            {"dark_levels", c.darkLights},
+            {"surfaces", {{"blurred", c.blurred}, {"sharp", c.sharp}, {"unlit", c.unlit}, {"hidden", c.hidden}}},
+            {"conflict_tiles", c.conflicts},
+            {"times_ms", {{"geometry", c.geometry_ms}, {"light", c.light_ms}, {"tiles", c.tiles_ms}}}};
+}
+
+struct WrittenPictures {
+    std::vector<std::string> names;
+    json views = json::array();  ///< counters of each perceived one
+};
+
+/// Every view and every distinct slot image, as PNG.
+Result<WrittenPictures> writePictures(const Compiled& compiled, const fs::path& directory) {
     std::error_code error;
     fs::create_directories(directory, error);
     if (error) {
         return fail(Fault::cannotWrite,
                     "The directory " + directory.string() + " can not be made: " + error.message() + ".");
     }
-    std::vector<std::string> names;
+    WrittenPictures all;
     const auto write = [&](const std::string& name, const Image<std::uint8_t>& picture) -> Result<void> {
         if (auto written = projects::writePng(directory / name, picture); !written) return written;
-        names.push_back((directory / name).string());
+        all.names.push_back((directory / name).string());
         return {};
     };
     const Document& document = compiled.document;
@@ -44,10 +64,11 @@ Result<std::vector<std::string>> writePictures(const Compiled& compiled, const f
     for (const Eye eye : {Eye::left, Eye::right}) {
         ViewRequest request;
         request.eye = eye;
-        const auto view = perceived(document, compiled.plan, compiled.program, request);
+        const auto view = ViewEngine().see(document, compiled.plan, compiled.program, request);
         if (!view) return tl::unexpected(view.error());
+        all.views.push_back(countersOf(eye, *view));
         const auto* name = eye == Eye::left ? "perceived-left.png" : "perceived-right.png";
-        if (auto r = write(name, toSrgb8(*view)); !r) return tl::unexpected(r.error());
+        if (auto r = write(name, toSrgb8(view->radiance())); !r) return tl::unexpected(r.error());
     }
     for (std::size_t slot = 0; slot < compiled.program.imageOfSlot.size(); ++slot) {
         const auto number = (slot < 10 ? "0" : "") + std::to_string(slot);
@@ -55,7 +76,7 @@ Result<std::vector<std::string>> writePictures(const Compiled& compiled, const f
             return tl::unexpected(r.error());
         }
     }
-    return names;
+    return all;
 }
 
 /// Pixels of the slot images the devices received that differ from the program's, slot by slot.
@@ -132,10 +153,11 @@ int runCommand(const RunOptions& options) {
     json report = reportOf(*project, options, *played);
     report["received"] = *compared;
     if (!options.pictures.empty()) {
-        const auto names = writePictures(project->compiled, options.pictures);
-        if (!names) return refused("run", names.error());
-        report["pictures"] = *names;
-        std::cout << names->size() << " pictures in " << options.pictures << '\n';
+        const auto pictures = writePictures(project->compiled, options.pictures);
+        if (!pictures) return refused("run", pictures.error());
+        report["pictures"] = pictures->names;
+        report["views"] = pictures->views;
+        std::cout << pictures->names.size() << " pictures in " << options.pictures << '\n';
     }
     if (!options.report.empty()) {
         std::error_code ignored;

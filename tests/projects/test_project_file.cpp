@@ -275,3 +275,32 @@ TEST_CASE("wearer and rig: files of their own") {
     CHECK(contains(readRig(folder / "w.json").error().what, "is not a rig file"));
     CHECK(contains(readRig(folder / "none.json").error().what, "does not exist"));
 }
+
+TEST_CASE("rig: its projector's wavelengths are kept, may be missing, and must be those of red, green and blue light") {
+    Folder folder;
+    Rig rig;
+    rig.primaries = {Metre::fromSi(620 / 1e9), Metre::fromSi(527.5 / 1e9), Metre::fromSi(462 / 1e9)};
+    REQUIRE(writeRig(folder / "r.json", rig));
+    CHECK(*readRig(folder / "r.json") == rig);
+    Json json = jsonAt(folder / "r.json");
+    CHECK(json["primaries_nm"] == Json({620.0, 527.5, 462.0}));
+    rig.primaries = {};
+    REQUIRE(writeRig(folder / "r.json", rig));
+    CHECK_FALSE(jsonAt(folder / "r.json").contains("primaries_nm"));
+    CHECK_FALSE(readRig(folder / "r.json")->primaries);
+    CHECK_FALSE(openProject(fs::path(ILF_SOURCE_DIR) / "tests/projects/data/version-1.ilfd")->document.rig.primaries);
+
+    const auto refused = [&](const Json& primaries) {
+        json["primaries_nm"] = primaries;
+        const auto read = readRig(folder.put("r.json", json.dump()));
+        REQUIRE_FALSE_MESSAGE(read, primaries.dump());
+        return read.error().what;
+    };
+    CHECK(contains(refused({790, 530, 460}), "red light must be from 380 to 780 nm, not 790"));
+    CHECK(contains(refused({620, 530, 370}), "blue light must be from 380 to 780 nm"));
+    CHECK(contains(refused({460, 530, 620}), "must fall from red over green to blue"));
+    CHECK(contains(refused({620, 620, 460}), "must fall"));
+    CHECK(contains(refused({6.2e-7, 5.3e-7, 4.6e-7}), "380 to 780 nm"));  // metres typed where nanometres belong
+    CHECK(contains(refused({620, 530}), "list of 3 numbers"));
+    CHECK(contains(refused("RGB"), "list of 3 numbers"));
+}
