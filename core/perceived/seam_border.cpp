@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/parallel.h"
+#include "core/perceived/seam_light.h"
 #include "core/perceived/seam_patch.h"
 #include "core/perceived/seam_weighting.h"
 #include "core/perceived/seam_words.h"
@@ -24,8 +25,9 @@ using view::WholeBorder;
 
 /// Profiles are at most this many patch pixels to each side; longer ones are worked out on coarser pixels.
 constexpr double kMostReach = 40.0;
-/// Profiles worked out in one patch.
-constexpr std::size_t kLines = 8;
+constexpr Eye kEyes[] = {Eye::left, Eye::right};
+/// Profiles worked out in one cell.
+constexpr std::size_t kLines = 6;
 
 struct Line {
     Point<CameraFrame> at;
@@ -50,6 +52,7 @@ struct Cell {
     Displacement displaced;
     bool depthStep = false;
     double length_m = 0.0;
+    std::vector<bool> kin{};  ///< regions lit like one of the border's two, as far away
 
     std::vector<std::array<double, 2>> weber{};  ///< as compiled, of each line
     std::array<BothEyes, 4> blendings{};
@@ -145,6 +148,14 @@ private:
             cell.displaced = view::displacementAt(compiled_, line.at, line.nx, line.ny, *distance, border.power);
             const auto behind = distanceOf(whole.other, line.at);
             cell.depthStep = behind && abs(1.0 / *behind - 1.0 / *distance) > kDepthStep;
+            for (std::size_t r = 0; r < regions_.all().size(); ++r) {
+                const auto d = distanceOf(r, line.at);
+                const auto like = [&](std::size_t one, std::optional<Metre> at) {
+                    return r == one || (regions_.all()[r].level == regions_.all()[one].level && d && at &&
+                                        abs(1.0 / *d - 1.0 / *at) < 1e-3_D);
+                };
+                cell.kin.push_back(like(whole.blurred, distance) || like(whole.other, behind));
+            }
             // Pixel edges along a slanted line are longer than it, by 4 / pi on average.
             cell.length_m = static_cast<double>(crossings.size()) * 0.785 / cell.displaced.pixelsPerMetre;
             const std::size_t count = std::min(kLines, crossings.size());
@@ -193,17 +204,40 @@ private:
         return PatchWindow::around(x0, y0, x1, y1, std::min(halo, 4.0 * kMostReach * border.pitch), border.pitch);
     }
 
-    /// The border's contrast along one line of a patch; where a profile leaves the picture it ends.
-    SeamContrast along(const Line& line, const Border& border, const PatchWindow& window, const Block& image) const {
+    /// Where the profile across a line lies: from the border to both sides until it leaves the picture, or comes to a
+    /// surface or light that is neither of the border's two, less what shines over from there.
+    std::vector<Point<CameraFrame>> profile(const Line& line, const Cell& cell) const {
+        const Border& border = borders_[cell.border];
         const int reach = samples(border);
+        const double margin = cell.displaced.radius + std::abs(cell.displaced.seam());
+        const int blur = static_cast<int>(std::ceil(margin / border.pitch));
+        const auto point = [&](int i) {
+            return Point<CameraFrame>{line.at.x + i * border.pitch * line.nx, line.at.y + i * border.pitch * line.ny};
+        };
+        const auto last = [&](int side) {
+            int i = 0;
+            for (; i < reach; ++i) {
+                const auto p = point(side * (i + 1));
+                const int x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y));
+                if (!regions_.inside(x, y)) return i;
+                if (!cell.kin[regions_.owner(x, y)]) return i - blur;
+            }
+            return i;
+        };
+        std::vector<Point<CameraFrame>> points;
+        for (int i = -last(-1); i <= last(1); ++i)
+            points.push_back(point(i));
+        return points;
+    }
+
+    /// `light` gives what is received at a point.
+    template <class Light>
+    static SeamContrast contrast(const Line& line, const Border& border, const std::vector<Point<CameraFrame>>& points,
+                                 Light&& light) {
         std::vector<double> differences;
         SeamContrast found{0.0, 0.0, line.at, false};
-        for (int i = -reach; i <= reach; ++i) {
-            const double at = i * border.pitch;
-            const Point<CameraFrame> p{line.at.x + at * line.nx, line.at.y + at * line.ny};
-            if (!regions_.inside(static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)))) continue;
-            const auto q = window.toPatch(p);
-            differences.push_back(static_cast<double>(view::sampled(image, q.x, q.y)) - 1.0);
+        for (const auto& p : points) {
+            differences.push_back(light(p) - 1.0);
             if (std::abs(differences.back()) <= found.weber) continue;
             found.weber = std::abs(differences.back());
             found.gap = differences.back() < 0.0;
@@ -212,24 +246,52 @@ private:
         return found;
     }
 
-    void lookAt(Cell& cell) const {
-        const Border& border = borders_[cell.border];
+    /// All the picture whose light reaches a cell's profiles, under errors too.
+    PixelRect<CameraFrame> around(const Cell& cell) const {
         const PatchWindow window = windowOf(cell);
-        const auto surfaces = view::patchSurfaces(compiled_.document, regions_, cell.lines.front().at, window);
-        const auto own = static_cast<std::size_t>(compiled_.document.seam.blending);
+        const double more = 0.5 * cell.displaced.radius + 8.0;
+        return {static_cast<int>(window.x0 - more), static_cast<int>(window.y0 - more),
+                static_cast<int>(window.x0 + window.pitch * window.size.width + more) + 1,
+                static_cast<int>(window.y0 + window.pitch * window.size.height + more) + 1};
+    }
+
+    void lookAt(Cell& cell) const {
         cell.weber.assign(cell.lines.size(), {});
+        if (cell.depthStep) return lookPastStep(cell);
+        const auto own = static_cast<std::size_t>(compiled_.document.seam.blending);
+        const auto box = around(cell);
         for (std::size_t b = 0; b < programs_.size(); ++b) {
             if (b != own && !programs_[b]) continue;
-            const auto lights = view::programLights(b == own ? compiled_ : *programs_[b], window);
+            const view::SeamLight light(compiled_, b == own ? compiled_.program : programs_[b]->program, box);
             for (const std::size_t eye : {0U, 1U}) {
-                const Block image =
-                    view::seenPatch(compiled_, window, surfaces, lights,
-                                    {eye == 0 ? Eye::left : Eye::right, cell.distance, cell.distance, {}});
+                const auto view = light.view({kEyes[eye], cell.distance, cell.distance, {}});
                 for (std::size_t l = 0; l < cell.lines.size(); ++l) {
-                    const SeamContrast one = along(cell.lines[l], border, window, image);
+                    const auto one = contrast(cell.lines[l], borders_[cell.border], profile(cell.lines[l], cell),
+                                              [&](Point<CameraFrame> p) { return light.at(p, view); });
                     keepWorst(cell.blendings[b][eye], one);
                     if (b == own) cell.weber[l][eye] = one.weber;
                 }
+            }
+        }
+    }
+
+    /// Where one surface hides another, and nothing is blended whatever the blending.
+    void lookPastStep(Cell& cell) const {
+        const PatchWindow window = windowOf(cell);
+        const auto surfaces = view::patchSurfaces(compiled_.document, regions_, cell.lines.front().at, window);
+        const auto lights = view::programLights(compiled_, window);
+        for (const std::size_t eye : {0U, 1U}) {
+            const Block image =
+                view::seenPatch(compiled_, window, surfaces, lights, {kEyes[eye], cell.distance, cell.distance, {}});
+            for (std::size_t l = 0; l < cell.lines.size(); ++l) {
+                const auto one = contrast(cell.lines[l], borders_[cell.border], profile(cell.lines[l], cell),
+                                          [&](Point<CameraFrame> p) {
+                                              const auto q = window.toPatch(p);
+                                              return static_cast<double>(view::sampled(image, q.x, q.y));
+                                          });
+                for (BothEyes& blending : cell.blendings)
+                    keepWorst(blending[eye], one);
+                cell.weber[l][eye] = one.weber;
             }
         }
     }
@@ -316,7 +378,7 @@ private:
         std::array<const Cell*, 4> best{};
         const auto own = static_cast<std::size_t>(compiled_.document.seam.blending);
         for (const Cell& cell : cells_) {
-            if (cell.border != b) continue;
+            if (cell.border != b || cell.depthStep) continue;
             for (const std::size_t eye : {0U, 1U}) {
                 const Cell*& worst = best[eye];
                 if (!worst || cell.blendings[own][eye].weber > worst->blendings[own][eye].weber) worst = &cell;
@@ -334,9 +396,10 @@ private:
         const Border& border = borders_[b];
         const EyeOptics& eye = compiled_.plan.input.eye;
         for (const Cell* cell : telling(b)) {
-            const PatchWindow window = windowOf(*cell);
-            const auto surfaces = view::patchSurfaces(compiled_.document, regions_, cell->lines.front().at, window);
-            const auto lights = view::programLights(compiled_, window);
+            const view::SeamLight light(compiled_, compiled_.program, around(*cell));
+            std::vector<std::vector<Point<CameraFrame>>> profiles;
+            for (const Line& line : cell->lines)
+                profiles.push_back(profile(line, *cell));
             const Line& middle = cell->lines[cell->lines.size() / 2];
             const auto cases = errorCases(question_.errors, eye, cell->distance, middle.nx, middle.ny);
             if (seam.errors.empty()) {
@@ -347,11 +410,12 @@ private:
                 for (const Misplaced& off : cases[e].eyes) {
                     for (const std::size_t i : {0U, 1U}) {
                         if (stopped()) return;
-                        const Block image =
-                            view::seenPatch(compiled_, window, surfaces, lights,
-                                            {i == 0 ? Eye::left : Eye::right, cell->distance, cell->distance, off});
-                        for (const Line& line : cell->lines)
-                            keepWorst(seam.errors[e].eyes[i], along(line, border, window, image));
+                        const auto view = light.view({kEyes[i], cell->distance, cell->distance, off});
+                        for (std::size_t l = 0; l < cell->lines.size(); ++l) {
+                            keepWorst(seam.errors[e].eyes[i],
+                                      contrast(cell->lines[l], border, profiles[l],
+                                               [&](Point<CameraFrame> p) { return light.at(p, view); }));
+                        }
                     }
                 }
             }

@@ -68,13 +68,15 @@ struct SeamQuestion {
     bool allBlendings = true;  ///< else only as compiled
     bool underErrors = true;
     SeamErrors errors;
-    int mostPatches = 400;  ///< windows worked out in one blending, over all borders; beyond, borders are thinned out
+    int mostPatches = 400;  ///< stretches looked at, over all borders; beyond, borders are thinned out
 };
 
 /// Every border between a region whose light is displaced (blurred, or neutral and so partly lit while the lens is away
 /// from rest) and what is lit otherwise; worst first. Even white surfaces, seen by an eye that looks at the surface in
-/// question. Exact on windows along the border (`view::addLight`), so that corners and both sides are in. Other
-/// blendings are compiled anew. Nothing without a sweep, and nothing once `cancelled` says true.
+/// question, on lines across the border every few pixels (at most six in a stretch as long as the seam reaches), each
+/// gathered over the eye's blur discs; past depth steps on patches with both surfaces (`view::addLight`), without
+/// errors. A line ends where a third surface or light begins. Other blendings are compiled anew. Nothing without a
+/// sweep, and nothing once `cancelled` says true.
 std::vector<BorderSeam> borderSeams(const Compiled& compiled, const SeamQuestion& question = {},
                                     const std::function<bool()>& cancelled = {});
 

@@ -53,30 +53,6 @@ private:
     Patch<std::uint8_t> pixels_;
 };
 
-/// The raster pixels that a patch can see; at least two on a side, and at least one of them on the raster.
-PixelRect<ProjectorFrame> rasterUnder(const PatchWindow& window,
-                                      const Homography<ProjectorFrame, CameraFrame>& toProjector, Size raster) {
-    double x0 = 1e9, y0 = 1e9, x1 = -1e9, y1 = -1e9;
-    for (const double x : {0.0, 0.5, 1.0}) {
-        for (const double y : {0.0, 0.5, 1.0}) {
-            const auto p = toProjector(window.toPicture(x * window.size.width, y * window.size.height));
-            x0 = std::min(x0, p.x);
-            x1 = std::max(x1, p.x);
-            y0 = std::min(y0, p.y);
-            y1 = std::max(y1, p.y);
-        }
-    }
-    // What lies farther out than this repeats the edge anyway.
-    constexpr double kBeyond = 2.0;
-    const auto low = [&](double v, int length) {
-        return static_cast<int>(std::floor(std::clamp(v - 2.0, -kBeyond, length - 2.0)));
-    };
-    const auto high = [&](double v, int length) {
-        return static_cast<int>(std::ceil(std::clamp(v + 2.0, 2.0, length + kBeyond)));
-    };
-    return {low(x0, raster.width), low(y0, raster.height), high(x1, raster.width), high(y1, raster.height)};
-}
-
 /// `image` moved by (dx, dy) patch pixels; what comes in repeats the edge.
 Image<float> moved(const Image<float>& image, double dx, double dy) {
     Block block(image.width(), image.height(), 1);
@@ -183,30 +159,58 @@ std::vector<Light> programLights(const Compiled& compiled, const PatchWindow& wi
     return lights;
 }
 
-Block seenPatch(const Compiled& compiled, const PatchWindow& window, const std::vector<Surface>& surfaces,
-                const std::vector<Light>& lights, const Looking& looking) {
-    const Plan& plan = compiled.plan;
+PixelRect<ProjectorFrame> rasterUnder(const PatchWindow& window,
+                                      const Homography<ProjectorFrame, CameraFrame>& toProjector, Size raster) {
+    double x0 = 1e9, y0 = 1e9, x1 = -1e9, y1 = -1e9;
+    for (const double x : {0.0, 0.5, 1.0}) {
+        for (const double y : {0.0, 0.5, 1.0}) {
+            const auto p = toProjector(window.toPicture(x * window.size.width, y * window.size.height));
+            x0 = std::min(x0, p.x);
+            x1 = std::max(x1, p.x);
+            y0 = std::min(y0, p.y);
+            y1 = std::max(y1, p.y);
+        }
+    }
+    // What lies farther out than this repeats the edge anyway.
+    constexpr double kBeyond = 2.0;
+    const auto low = [&](double v, int length) {
+        return static_cast<int>(std::floor(std::clamp(v - 2.0, -kBeyond, length - 2.0)));
+    };
+    const auto high = [&](double v, int length) {
+        return static_cast<int>(std::ceil(std::clamp(v + 2.0, 2.0, length + kBeyond)));
+    };
+    return {low(x0, raster.width), low(y0, raster.height), high(x1, raster.width), high(y1, raster.height)};
+}
+
+Seen seenThrough(const Plan& plan, const Looking& looking, Metre planned, Dioptre lens) {
     const Misplaced& off = looking.off;
     EyeOptics eye = plan.input.eye;
     eye.pupil += off.pupil;
     eye.lensToPupil += off.lensToPupil;
     const Attention attention =
         plan.input.camera ? Attention{} : Attention{true, off.distance * looking.attended, plan.focusPower, {}};
+    // Lengths are taken on the surface, where the light lies, whatever the eye's true place.
+    const Metre distance = off.distance * planned;
+    const Dioptre defocus = seenDefocus(eye, attention, distance, lens);
+    const Metre lever = (distance + eye.lensToPupil) / magnification(eye, distance, 0.0_D, lens);
+    return {lever * (0.5 * (eye.pupil * defocus)), magnification(eye, distance, plan.focusPower, lens)};
+}
+
+Block seenPatch(const Compiled& compiled, const PatchWindow& window, const std::vector<Surface>& surfaces,
+                const std::vector<Light>& lights, const Looking& looking) {
+    const Plan& plan = compiled.plan;
+    const Misplaced& off = looking.off;
     const double metre = pixelsPerMetre(compiled.document, looking.centreDistance);
     Block image(window.size.width, window.size.height, 1);
     const Image<float> white(window.size, 1, std::vector<float>(pixelCount(window), 1.0F));
     for (const Light& light : lights) {
         std::vector<Appearance> looks;
         for (const Surface& surface : surfaces) {
-            // Lengths are taken on the surface, where the light lies, whatever the eye's true place.
-            const Metre distance = off.distance * surface.distance;
+            const Seen seen = seenThrough(plan, looking, surface.distance, light.power);
             const double pixels = pixelsPerMetre(compiled.document, surface.distance) / window.pitch;
-            const Dioptre defocus = seenDefocus(eye, attention, distance, light.power);
-            const Metre lever = (distance + eye.lensToPupil) / magnification(eye, distance, 0.0_D, light.power);
             const auto centre = opticalCentre(compiled.document, looking.eye, surface.distance);
             const auto at = window.toPatch({centre.x + metre * off.centreX.si(), centre.y + metre * off.centreY.si()});
-            looks.push_back({pixels * (lever * (0.5 * (eye.pupil * defocus))).si(),
-                             magnification(eye, distance, plan.focusPower, light.power), at.x, at.y});
+            looks.push_back({pixels * seen.radius.si(), seen.magnification, at.x, at.y});
         }
         const bool shifts = off.registrationX != 0.0_m || off.registrationY != 0.0_m;
         if (!shifts || abs(light.power - plan.focusPower) < 1e-4_D) {

@@ -40,6 +40,17 @@ struct Looking {
     Misplaced off;         ///< how eye and light differ from what the program was made for
 };
 
+/// How that eye sees a surface planned to be at `planned` through `lens`.
+struct Seen {
+    Metre radius;  ///< signed, of the disc on the lit surface, before magnification
+    double magnification = 1.0;
+};
+Seen seenThrough(const Plan& plan, const Looking& looking, Metre planned, Dioptre lens);
+
+/// The raster pixels that a patch can see; at least two on a side, and at least one of them on the raster.
+PixelRect<ProjectorFrame> rasterUnder(const PatchWindow& window,
+                                      const Homography<ProjectorFrame, CameraFrame>& toProjector, Size raster);
+
 /// What that eye receives of a white scene; 1 is the light of a region away from borders. One channel.
 Block seenPatch(const Compiled& compiled, const PatchWindow& window, const std::vector<Surface>& surfaces,
                 const std::vector<Light>& lights, const Looking& looking);
