@@ -1,5 +1,6 @@
 // The reference against golden values and against closed forms written out here: its eye, its lens, its colours.
 #include "core/optics/gaze.h"
+#include "core/perceived/exposures.h"
 #include "tests/core/perceived/reference_cases.h"
 #include "tests/support/law.h"
 
@@ -164,6 +165,44 @@ TEST_CASE("reference: a slot mid-sweep is integrated over the lens's own way") {
     MESSAGE("integrated ", all, " dB, one moment ", middle, " dB, noise floor ", seen.noiseFloor_dB);
     CHECK(all > 68.0);
     CHECK(middle < 60.0);
+}
+
+TEST_CASE("reference: a planned sweep is what each slot's light and power give, added up") {
+    const double metres = 0.5, f = 800.0;
+    Document d = document({region("left", Look::focus, metres, maskIn({0, 0, 70, 120}))}, Look::blur, metres);
+    d.scene.scale.focalPixels = f;
+    const Played scene = played(d);
+    REQUIRE(scene.plan.focusPower == 0.0_D);
+    const Radiance plain = plainView(d, 1.0);
+    const auto pixels = somePixels({20, 20, 140, 100}, 60);
+    const double centre = kMiddleX - 0.0315 * f / (metres + kBehind);
+    std::vector<std::array<double, 3>> model(pixels.size());
+    for (const view::Exposure& exposure : view::exposures(scene.plan)) {
+        const LightImage& light = scene.program.images[static_cast<std::size_t>(exposure.level)];
+        std::vector<float> lit(plain.pixels().begin(), plain.pixels().end());
+        for (std::size_t i = 0; i < lit.size(); ++i) {
+            const int pixel = static_cast<int>(i / 3);
+            lit[i] *= static_cast<float>(light.at(pixel % kSmall.width, pixel / kSmall.width)) / 255.0F;
+        }
+        const Radiance image(kSmall, 3, std::move(lit));
+        constexpr int kMoments = 6;
+        for (int moment = 0; moment < kMoments; ++moment) {
+            const Second t = exposure.start + ((moment + 0.5) / kMoments) * exposure.duration;
+            const ClosedForm form = closedForm(metres, scene.plan.waveform.powerAt(t).si(), f);
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                const double x = centre + (pixels[i].x + 0.5 - centre) / form.magnification;
+                const double y = kMiddleY + (pixels[i].y + 0.5 - kMiddleY) / form.magnification;
+                const auto seen = overDisc(
+                    [&](double px, double py) { return bilinear(image, x + form.radius * px, y + form.radius * py); });
+                for (std::size_t c = 0; c < 3; ++c)
+                    model[i][c] += exposure.weight / kMoments * seen[c];
+            }
+        }
+    }
+    const ReferencePixels seen = rays(scene, {}, pixels, 8192);
+    const double dB = agreement(seen, model);
+    MESSAGE("planned sweep: ", dB, " dB, noise floor ", seen.noiseFloor_dB);
+    CHECK(dB > 74.0);
 }
 
 TEST_CASE("reference: the room's light falls on everything during the whole sweep") {
