@@ -83,10 +83,11 @@ void why(Panel& p, const PredictedRegion& made) {
 void figureRows(Panel& p, const PredictedRegion& made) {
     const RegionPrediction& seen = made.seen;
     const auto with = [](const Predicted& v, const char* unit) { return plusMinus(v.value, v.error()) + unit; };
+    const auto whole = [](double v) { return std::to_string(std::lround(v)); };
     derivedRow(p, "blur", with(seen.blur_arcmin, "\u2032") + ", " + with(seen.defocus_D, " D"),
                "Predicted diameter of the blur disc, and defocus, at the point that shows the look least.");
     if (!seen.camera) {
-        derivedRow(p, "acuity", "20/" + with(seen.snellen, ""),
+        derivedRow(p, "acuity", "20/" + whole(seen.snellen.value) + " \u00b1 " + whole(seen.snellen.error()),
                    "Estimated: 0.65 arcmin of resolution for each millimetre of pupil and dioptre (Smith 1991), with "
                    "the 1 arcmin of a sharp eye. People differ by a factor of 1.5.");
         derivedRow(p, "print keeps", plusMinusPercent(seen.contrast),
