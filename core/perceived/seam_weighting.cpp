@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 namespace ilf {
@@ -27,11 +28,14 @@ SeamWeighting::SeamWeighting(double step_deg, int samples) : kernel_(static_cast
 }
 
 double SeamWeighting::worst(const std::vector<double>& differences) const {
+    const int count = static_cast<int>(differences.size()), reach = static_cast<int>(kernel_.size()) - 1;
     double most = 0.0;
-    for (std::size_t i = 0; i < differences.size(); ++i) {
+    for (int i = 0; i < count; ++i) {
         double sum = 0.0;
-        for (std::size_t j = 0; j < differences.size(); ++j)
-            sum += kernel_[i > j ? i - j : j - i] * differences[j];
+        for (int k = -reach; k <= reach; ++k) {
+            sum += kernel_[static_cast<std::size_t>(std::abs(k))] *
+                   differences[static_cast<std::size_t>(std::clamp(i + k, 0, count - 1))];
+        }
         most = std::max(most, std::abs(sum));
     }
     return most;

@@ -14,7 +14,8 @@ class SeamWeighting {
 public:
     /// `samples`: of one profile.
     SeamWeighting(double step_deg, int samples);
-    /// The largest weighted difference along a profile; beyond its ends all is even.
+    /// The largest weighted difference along a profile. Beyond its ends it goes on as there: where a profile was cut
+    /// short, the cut is no edge.
     double worst(const std::vector<double>& differences) const;
 
 private:
