@@ -30,7 +30,7 @@ void drawBorderSeams(Panel& p, const Viewport& viewport, ImDrawList& draw) {
             const double weber = asSeen ? point.weber[eye] : point.worst();
             const SeamSight seen = sight(weber);
             if (seen == SeamSight::hidden && state.page != Page::seam) continue;
-            const float radius = p.px(seen == SeamSight::hidden ? 1.2 : seen == SeamSight::faint ? 1.8 : 2.6);
+            const float radius = p.px(seen == SeamSight::hidden ? 1.0 : seen == SeamSight::faint ? 1.5 : 2.1);
             const ImVec2 at = vec(viewport.toWindow(point.at));
             draw.AddCircleFilled(at, radius + 1, rgb(0x000000, 110), 8);
             draw.AddCircleFilled(at, radius, faded(seamColour(weber), 0.9), 8);
