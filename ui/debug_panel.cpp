@@ -69,7 +69,14 @@ void debugPanel(Panel& p) {
     const Rect at{p.at.canvas.x + 12 * p.scale, p.at.canvas.y + 40 * p.scale, width,
                   std::min(height, p.at.canvas.h - 52 * p.scale)};
     if (at.empty()) return;
-    beginPanel("###debug", at, rgb(0x101317, 225), false, true);
+    ImGui::SetNextWindowPos(vec(at.x, at.y));
+    ImGui::SetNextWindowSize(vec(at.w, at.h));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, rgb(0x101317, 225));
+    // Unlike panels it lies before the picture; opening it must not take the keys away from the canvas.
+    ImGui::Begin("###debug", nullptr,
+                 (fixedFlags() & ~(ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollbar)) |
+                     ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::PopStyleColor();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const auto write = [&](double x, double y, const std::string& words, ImU32 ink) {
         draw.AddText(small, small->FontSize, vec(x, y), ink, words.c_str());

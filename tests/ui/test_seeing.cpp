@@ -133,6 +133,9 @@ TEST_CASE("debug panel: its key opens and closes it, and it lies over the pictur
     CHECK(desk.state.debugOpen);
     const ImGuiWindow* panel = ImGui::FindWindowByName("###debug");
     REQUIRE(panel != nullptr);
+    const auto& order = ImGui::GetCurrentContext()->Windows;  // back to front
+    CHECK(order.index_from_ptr(order.find(const_cast<ImGuiWindow*>(panel))) >
+          order.index_from_ptr(order.find(ImGui::FindWindowByName("###canvas"))));
     const Rect canvas = desk.areas().canvas;
     CHECK(panel->Pos.x >= canvas.x);
     CHECK(panel->Pos.y + panel->Size.y <= canvas.bottom() + 0.5);
