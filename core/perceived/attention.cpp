@@ -1,6 +1,9 @@
 #include "core/perceived/attention.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/optics/gaze.h"
 
 namespace ilf::view {
 namespace {
@@ -36,14 +39,31 @@ Dioptre seenDefocus(const EyeOptics& eye, const Attention& attention, Metre dist
                            : defocus(eye, distance, lens, attention.amount);
 }
 
-Appearance appearance(const Document& document, const Plan& plan, Eye eye, const Attention& attention,
-                      const ViewScale& scale, PixelRect<ViewFrame> window, Metre distance, Dioptre lens) {
+PupilShift pupilShiftOf(const Document& document, const ViewRequest& request) {
+    if (request.gaze != Gaze::fixed) return {};
+    const Point<CameraFrame> axis = cameraAxis(document);
+    const double f = document.scene.scale.focalPixels;
+    return {pupilShift(std::atan((request.gazeAt.x - axis.x) / f)),
+            pupilShift(std::atan((request.gazeAt.y - axis.y) / f))};
+}
+
+Appearance appearance(const Document& document, const Plan& plan, const ViewRequest& request,
+                      const Attention& attention, const ViewScale& scale, PixelRect<ViewFrame> window, Metre distance,
+                      Dioptre lens, Dioptre colour) {
     const EyeOptics& optics = plan.input.eye;
-    const double halfAngle = 0.5 * (optics.pupil * seenDefocus(optics, attention, distance, lens));
+    const double halfAngle = 0.5 * (optics.pupil * (seenDefocus(optics, attention, distance, lens) - colour));
     const double pixels = document.scene.scale.focalPixels * scale.nominal;
-    const Point<CameraFrame> centre = opticalCentre(document, eye, distance);
-    return {pixels * halfAngle / magnification(optics, distance, 0.0_D, lens),
-            magnification(optics, distance, plan.focusPower, lens), centre.x * scale.x - window.x0,
+    // From the pupil through the lens's optical centre: where the surface does not move.
+    const Point<CameraFrame> straight = opticalCentre(document, request.eye, distance);
+    const PupilShift shift = pupilShiftOf(document, request);
+    const double aside = pixelsPerMetre(document, distance) * (distance / optics.lensToPupil);
+    const Point<CameraFrame> centre{straight.x - aside * shift.right.si(), straight.y - aside * shift.down.si()};
+    const bool turns = request.gaze == Gaze::follows && !plan.input.camera;
+    const auto scaled = [&](Dioptre from) {
+        return turns ? magnificationFrom(optics, MagnificationFrom::rotationCentre, {}, distance, from, lens)
+                     : magnification(optics, distance, from, lens);
+    };
+    return {pixels * halfAngle / scaled(0.0_D), scaled(plan.focusPower), centre.x * scale.x - window.x0,
             centre.y * scale.y - window.y0};
 }
 

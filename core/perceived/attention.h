@@ -28,8 +28,17 @@ struct Appearance {
     double radius = 0.0;
     double magnification = 1.0;  ///< about `centre`, against the focus power
     double centreX = 0.0, centreY = 0.0;
+    bool operator==(const Appearance&) const = default;
 };
-Appearance appearance(const Document& document, const Plan& plan, Eye eye, const Attention& attention,
-                      const ViewScale& scale, PixelRect<ViewFrame> window, Metre distance, Dioptre lens);
+/// `colour` is the eye's refraction in that light against the one it is focused with, dioptres (chromaticRefraction).
+Appearance appearance(const Document& document, const Plan& plan, const ViewRequest& request,
+                      const Attention& attention, const ViewScale& scale, PixelRect<ViewFrame> window, Metre distance,
+                      Dioptre lens, Dioptre colour = {});
+
+/// How far a fixed gaze moves the pupil aside, metres across the lens: kPupilToRotationCentre sin(angle) for each axis.
+struct PupilShift {
+    Metre right, down;
+};
+PupilShift pupilShiftOf(const Document& document, const ViewRequest& request);
 
 }  // namespace ilf::view

@@ -139,7 +139,8 @@ std::vector<Surface> surfaces(const std::vector<SceneLayer>& layers, PixelRect<V
         PixelRect<ViewFrame> box;
         for (const auto& row : covered)
             box = box.united(row);
-        if (!box.empty()) result.push_back({layer.distance, Image<float>(size, 1, std::move(alpha)), box});
+        if (!box.empty())
+            result.push_back({layer.distance, Image<float>(size, 1, std::move(alpha)), box, layer.region});
     }
     return result;
 }

@@ -27,6 +27,7 @@ struct Surface {
     Metre distance;
     Image<float> alpha;
     PixelRect<ViewFrame> covered;  ///< in the window: where alpha is above 0
+    RegionId region{};             ///< the first one that lies there
 };
 std::vector<Surface> surfaces(const std::vector<SceneLayer>& layers, PixelRect<ViewFrame> window);
 

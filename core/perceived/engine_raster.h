@@ -1,0 +1,25 @@
+// The light of one slot image as it falls on the view, tile by tile, and which pixels of it changed.
+#pragma once
+
+#include "core/compile/program.h"
+#include "core/perceived/engine_planes.h"
+
+namespace ilf::view {
+
+/// One level's image and where it lands. Bilinear between projector pixels; the outermost reach to the raster's edge,
+/// beyond it is dark.
+class LightRaster {
+public:
+    /// Takes over the image. Tells which projector pixels changed, tile by tile; all of them the first time.
+    std::vector<PixelRect<ProjectorFrame>> update(const LightImage& image);
+    /// 64 x 32 values 0..1 of a tile; the view's pixel (x, y) is the picture's (x / scale.x, y / scale.y).
+    void sample(float* out, ViewRect tile, Size view, const Homography<ProjectorFrame, CameraFrame>& toProjector,
+                const ViewScale& scale) const;
+
+private:
+    LightImage image_;
+    int width_ = 0, height_ = 0;
+    std::vector<std::uint8_t> values_;
+};
+
+}  // namespace ilf::view

@@ -1,0 +1,40 @@
+// The loops of the engine that touch every pixel, compiled for several processors and chosen at run time.
+#pragma once
+
+#include "core/perceived/engine_kernel.h"
+#include "core/perceived/engine_resample.h"
+
+namespace ilf::view {
+
+/// Numbers that may be read or written beyond the end of a row or block by any function here.
+inline constexpr int kOverrun = 32;
+
+/// sums[y + 1] = sums[y] + mask[y] * values[y] for `rows` rows of `width` numbers; row 0 is set to 0. A null `mask`
+/// is 1.
+void prefixSums(float* sums, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
+                int valueStride);
+
+/// `block` (`width` x `height`, height rounded up to 4) from the running sums of its window.
+void blurBlock(float* block, int blockStride, int width, int height, const float* sums, int sumStride,
+               const EdgeKernel& kernel);
+
+/// Rows of samples spread to tile rows: out is rows x kTileW.
+void resampleAcross(float* out, const float* block, int blockStride, int rows, const AcrossTaps& taps);
+
+/// into (kTileH x kTileW) += weight * shares * (rows of `across` resampled down). A null `shares` is 1. Rows that meet
+/// none of firstRow..lastRow stay; the others read rows of `across` beside those too, which must be 0.
+void resampleDownAdd(float* into, const float* across, int firstRow, int lastRow, const DownTaps& taps,
+                     const float* shares, float weight);
+
+/// into += weight * shares * mask * values over one tile; null `shares` is 1.
+void addTile(float* into, const float* shares, const float* mask, const float* values, int valueStride, float weight);
+
+/// Averages of one tile: out (kTileW / coarse x kTileH / coarse) from mask * values, which start averaging.lead pixels
+/// left of and above the tile. Null `values` are 1. `coarse` is 2 or 4.
+void averageTile(float* out, int outStride, int coarse, const float* mask, int maskStride, const float* values,
+                 int valueStride, const Averaging& averaging);
+
+/// "AVX3", "AVX2", ...: what the processor was given.
+const char* simdTarget();
+
+}  // namespace ilf::view

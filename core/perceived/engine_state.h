@@ -1,0 +1,73 @@
+// What the engine remembers between views: surfaces, light on them, who hides whom, and the view itself.
+#pragma once
+
+#include <optional>
+
+#include "core/perceived/engine_raster.h"
+#include "core/perceived/engine_shown.h"
+#include "core/perceived/setting.h"
+
+namespace ilf::view {
+
+/// A surface of constant distance.
+struct EngineSurface {
+    RegionId region;
+    Metre distance;
+    TilePlane alpha;
+    std::array<PaddedPlane, 2> averaged;  ///< alpha over 2 x 2 and 4 x 4 pixels, if anything asks for it
+    std::vector<ViewRect> changed;        ///< of alpha, since the view before
+};
+
+/// A nearer surface as it lies before points of a farther one, for rays through one pupil point to either.
+struct Before {
+    int nearer = 0;
+    Shown shown;
+};
+
+/// A surface in one light.
+struct EngineLook {
+    Shown shown;
+    bool takesPart = true;                ///< false: its light is divided among other powers
+    std::vector<Before> visibleBehind;    ///< nearer ones blurred alike: settled on the surface
+    std::vector<int> passedBy;            ///< nearer ones blurred otherwise: settled in the view
+    bool hides = false;                   ///< some farther one asks for `passing`
+    TilePlane visible;                    ///< of each point, the share of rays that no alike one stops; empty: all
+    TilePlane passing;                    ///< of each view pixel, the share of rays that this surface lets pass
+    std::array<PaddedPlane, 3> averaged;  ///< light * albedo * alpha * visible, where the look is coarse
+    std::vector<ViewRect> changedVisible, changedPassing;
+};
+
+struct EngineLight {
+    PowerLight light;
+    std::vector<EngineLook> looks;  ///< by surface
+};
+
+/// Everything a frame is made of.
+struct EngineScene {
+    TileCount tiles;
+    Size size;
+    RungRules rules;
+    std::array<PaddedPlane, 3> albedo;
+    std::vector<EngineSurface> surfaces;  ///< nearest first
+    std::vector<TilePlane> lightOfLevel;
+    std::vector<std::vector<ViewRect>> changedLight;  ///< by level
+    std::vector<EngineLight> lights;
+    std::vector<PupilCell> cells;  ///< empty: the whole pupil at once
+    bool lensField = false;
+    double lensRadius_px = 0.0, pupilRadius_px = 0.0;  ///< across the lens, as seen from the pupil, in view pixels
+
+    /// Light, alpha and visibility of a surface in a light; those that are 1 everywhere are left out.
+    std::vector<const TilePlane*> planesOf(const EngineLight& light, std::size_t surface) const;
+};
+
+/// Works out one tile. Adds to `counters` what it skipped.
+Box<ViewTile> tileSeen(const EngineScene& scene, int tile, ViewCounters& counters);
+
+/// Works out `visible`, `averaged` and `passing` where what they are made of changed; everywhere if `all`.
+void updateVisibility(EngineScene& scene, bool all, int threads);
+void updateAveraged(EngineScene& scene, bool all, int threads);
+
+/// `work(i)` for 0 <= i < count on one thread, or shared between two.
+void shareOut(int count, int threads, const std::function<void(int)>& work);
+
+}  // namespace ilf::view

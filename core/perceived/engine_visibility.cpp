@@ -1,0 +1,262 @@
+// Who hides whom, worked out tile by tile where a surface's outline changed; and light averaged for coarse discs.
+#include <algorithm>
+#include <array>
+
+#include "core/base/parallel.h"
+#include "core/perceived/engine_state.h"
+
+namespace ilf::view {
+namespace {
+
+/// One tile to be worked out.
+struct Job {
+    std::size_t light = 0, surface = 0;
+    int tile = 0;
+};
+
+/// Marks tiles once.
+class Marks {
+public:
+    explicit Marks(TileCount tiles) : tiles_(tiles), marked_(static_cast<std::size_t>(tiles.count())) {}
+    void mark(ViewRect pixels) {
+        tiles_.over(pixels, [&](int tile) { marked_[static_cast<std::size_t>(tile)] = true; });
+    }
+    void markAll() { std::fill(marked_.begin(), marked_.end(), true); }
+    template <class Visit>
+    void each(const Visit& visit) const {
+        for (std::size_t i = 0; i < marked_.size(); ++i) {
+            if (marked_[i]) visit(static_cast<int>(i));
+        }
+    }
+
+private:
+    TileCount tiles_;
+    std::vector<bool> marked_;
+};
+
+/// into -= what `shown` shows of a surface's alpha in a tile; false if it shows nothing there.
+bool takeAway(const EngineScene& scene, const EngineSurface& surface, const Shown& shown, int tile,
+              std::array<float, kTilePixels>& into) {
+    Workspace& work = workspace();
+    const std::array<const TilePlane*, 1> alpha{&surface.alpha};
+    const int coarse = shown.placing.coarse;
+    const ViewRect pixels = shown.pixels(scene.tiles, tile), lit = litBox(pixels, alpha);
+    const ViewRect part = shown.litSamples(scene.tiles, tile, lit);
+    if (lit.empty() || part.empty()) return false;
+    if (surface.alpha.uniformOver(pixels, 1.0F)) {
+        into.fill(0.0F);
+        return true;
+    }
+    if (shown.still) {
+        maskOver(work, scene.tiles.rect(tile), alpha);
+        for (int y = 0; y < kTileH; ++y) {
+            for (int x = 0; x < kTileW; ++x)
+                into[static_cast<std::size_t>(y * kTileW + x)] -=
+                    work.mask[static_cast<std::size_t>(y * work.maskStride + x)];
+        }
+        return true;
+    }
+    const ViewRect window = part.grown(shown.reach);
+    if (coarse == 1) maskOver(work, window, alpha);
+    const Source source =
+        coarse == 1 ? Source{window, true, nullptr} : Source{{}, false, &surface.averaged[coarse == 2 ? 0 : 1]};
+    if (!sumSource(work, shown, part, source)) return false;
+    addSummed(into.data(), work, shown, shown.kernel(0, 1), scene.tiles, tile, part, nullptr, -1.0F);
+    return true;
+}
+
+/// Shares within rounding of 0 and 1 are 0 and 1: most tiles are then uniform.
+void settle(std::array<float, kTilePixels>& shares) {
+    constexpr float kNone = 1e-4F;
+    for (float& share : shares)
+        share = share < kNone ? 0.0F : share > 1.0F - kNone ? 1.0F : share;
+}
+
+/// One tile of averages of mask * values; the mask as maskOver made it for the tile grown by the averaging's lead.
+void averageInto(PaddedPlane& into, int coarse, ViewRect rect, const PaddedPlane* values) {
+    const Averaging& kernel = averaging(coarse);
+    const ViewRect window = rect.grown(kernel.lead);
+    const Workspace& work = workspace();
+    averageTile(into.at(rect.x0 / coarse, rect.y0 / coarse), into.stride(), coarse, work.mask.data(), work.maskStride,
+                values ? values->at(window.x0, window.y0) : nullptr, values ? values->stride() : 0, kernel);
+}
+
+void darken(PaddedPlane& into, int coarse, ViewRect rect) {
+    for (int y = 0; y < kTileH / coarse; ++y)
+        std::fill_n(into.at(rect.x0 / coarse, rect.y0 / coarse + y), kTileW / coarse, 0.0F);
+}
+
+PaddedPlane averagedPlane(TileCount tiles, int coarse) {
+    return {tiles.columns * kTileW / coarse, tiles.rows * kTileH / coarse};
+}
+
+/// Alpha over 2 x 2 and 4 x 4 pixels, for the looks that ask for it.
+void updateAveragedAlpha(EngineScene& scene, bool all, int threads) {
+    std::vector<Job> jobs;  // light: 0 half, 1 quarter
+    for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+        EngineSurface& surface = scene.surfaces[k];
+        for (std::size_t which = 0; which < 2; ++which) {
+            if (surface.averaged[which].empty()) continue;
+            Marks marks(scene.tiles);
+            if (all) marks.markAll();
+            for (const ViewRect& rect : surface.changed)
+                marks.mark(rect.grown(7));
+            marks.each([&](int tile) { jobs.push_back({which, k, tile}); });
+        }
+    }
+    shareOut(static_cast<int>(jobs.size()), threads, [&](int i) {
+        const Job& job = jobs[static_cast<std::size_t>(i)];
+        EngineSurface& surface = scene.surfaces[job.surface];
+        const std::array<const TilePlane*, 1> alpha{&surface.alpha};
+        const int coarse = job.light == 0 ? 2 : 4;
+        const ViewRect rect = scene.tiles.rect(job.tile), window = rect.grown(averaging(coarse).lead);
+        if (litBox(window, alpha).empty()) return darken(surface.averaged[job.light], coarse, rect);
+        maskOver(workspace(), window, alpha);
+        averageInto(surface.averaged[job.light], coarse, rect, nullptr);
+    });
+}
+
+}  // namespace
+
+void shareOut(int count, int threads, const std::function<void(int)>& work) {
+    if (threads > 1 && count > 2) return parallelFor(count, work);
+    for (int i = 0; i < count; ++i)
+        work(i);
+}
+
+void updateVisibility(EngineScene& scene, bool all, int threads) {
+    if (all) {
+        for (EngineSurface& surface : scene.surfaces)
+            surface.averaged = {};
+        const auto ask = [&](const Shown& shown, int surface) {
+            if (shown.placing.coarse == 1) return;
+            PaddedPlane& plane =
+                scene.surfaces[static_cast<std::size_t>(surface)].averaged[shown.placing.coarse == 2 ? 0 : 1];
+            if (plane.empty()) plane = averagedPlane(scene.tiles, shown.placing.coarse);
+        };
+        for (const EngineLight& light : scene.lights) {
+            for (std::size_t k = 0; k < light.looks.size(); ++k) {
+                if (light.looks[k].hides) ask(light.looks[k].shown, static_cast<int>(k));
+                for (const Before& before : light.looks[k].visibleBehind)
+                    ask(before.shown, before.nearer);
+            }
+        }
+    }
+    updateAveragedAlpha(scene, all, threads);
+
+    std::vector<Job> visible, passing;
+    for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+        for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+            EngineLook& look = scene.lights[l].looks[k];
+            look.changedVisible.clear();
+            look.changedPassing.clear();
+            if (!look.visible.empty()) {
+                Marks marks(scene.tiles);
+                if (all) marks.markAll();
+                for (const Before& before : look.visibleBehind) {
+                    for (const ViewRect& rect : scene.surfaces[static_cast<std::size_t>(before.nearer)].changed)
+                        marks.mark(before.shown.reached(rect));
+                }
+                marks.each([&](int tile) { visible.push_back({l, k, tile}); });
+            }
+            if (look.hides) {
+                Marks marks(scene.tiles);
+                if (all) marks.markAll();
+                for (const ViewRect& rect : scene.surfaces[k].changed)
+                    marks.mark(look.shown.reached(rect));
+                marks.each([&](int tile) { passing.push_back({l, k, tile}); });
+            }
+        }
+    }
+    std::vector<ViewRect> changed(visible.size() + passing.size());
+    shareOut(static_cast<int>(changed.size()), threads, [&](int i) {
+        const auto n = static_cast<std::size_t>(i);
+        const bool first = n < visible.size();
+        const Job& job = first ? visible[n] : passing[n - visible.size()];
+        EngineLook& look = scene.lights[job.light].looks[job.surface];
+        std::array<float, kTilePixels> shares;
+        shares.fill(1.0F);
+        bool any = false;
+        if (first) {
+            std::array<float, kTilePixels> one;
+            for (const Before& before : look.visibleBehind) {
+                one.fill(1.0F);
+                if (!takeAway(scene, scene.surfaces[static_cast<std::size_t>(before.nearer)], before.shown, job.tile,
+                              one)) {
+                    continue;
+                }
+                any = true;
+                for (std::size_t p = 0; p < shares.size(); ++p)
+                    shares[p] *= std::clamp(one[p], 0.0F, 1.0F);
+            }
+        } else {
+            any = takeAway(scene, scene.surfaces[job.surface], look.shown, job.tile, shares);
+        }
+        TilePlane& plane = first ? look.visible : look.passing;
+        if (any) {
+            settle(shares);
+            changed[n] = plane.set(job.tile, shares.data());
+        } else {
+            changed[n] = plane.fill(job.tile, 1.0F);
+        }
+    });
+    for (std::size_t n = 0; n < changed.size(); ++n) {
+        if (changed[n].empty()) continue;
+        const bool first = n < visible.size();
+        const Job& job = first ? visible[n] : passing[n - visible.size()];
+        EngineLook& look = scene.lights[job.light].looks[job.surface];
+        (first ? look.changedVisible : look.changedPassing).push_back(changed[n]);
+    }
+}
+
+void updateAveraged(EngineScene& scene, bool all, int threads) {
+    std::vector<Job> jobs;
+    for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+        EngineLight& light = scene.lights[l];
+        for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+            EngineLook& look = light.looks[k];
+            const int coarse = look.shown.placing.coarse;
+            if (coarse == 1 || !look.takesPart) continue;
+            const bool fresh = look.averaged[0].empty();
+            if (fresh) {
+                for (PaddedPlane& plane : look.averaged)
+                    plane = averagedPlane(scene.tiles, coarse);
+            }
+            Marks marks(scene.tiles);
+            if (all || fresh) marks.markAll();
+            const auto mark = [&](const std::vector<ViewRect>& rects) {
+                for (const ViewRect& rect : rects)
+                    marks.mark(rect.grown(7));
+            };
+            mark(scene.surfaces[k].changed);
+            mark(look.changedVisible);
+            if (light.light.level != Exposure::kAmbient)
+                mark(scene.changedLight[static_cast<std::size_t>(light.light.level)]);
+            const auto planes = scene.planesOf(light, k);
+            marks.each([&](int tile) {
+                // A fresh plane is dark already.
+                if (fresh && litBox(scene.tiles.rect(tile).grown(averaging(coarse).lead), planes).empty()) return;
+                jobs.push_back({l, k, tile});
+            });
+        }
+    }
+    shareOut(static_cast<int>(jobs.size()), threads, [&](int i) {
+        const Job& job = jobs[static_cast<std::size_t>(i)];
+        EngineLight& light = scene.lights[job.light];
+        EngineLook& look = light.looks[job.surface];
+        const int coarse = look.shown.placing.coarse;
+        const auto planes = scene.planesOf(light, job.surface);
+        const ViewRect rect = scene.tiles.rect(job.tile), window = rect.grown(averaging(coarse).lead);
+        const bool dark = litBox(window, planes).empty();
+        if (!dark) maskOver(workspace(), window, planes);
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (dark) {
+                darken(look.averaged[c], coarse, rect);
+            } else {
+                averageInto(look.averaged[c], coarse, rect, &scene.albedo[c]);
+            }
+        }
+    });
+}
+
+}  // namespace ilf::view
