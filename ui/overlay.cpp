@@ -1,6 +1,9 @@
 #include "ui/overlay.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
 
 namespace ilf::ui {
 
@@ -33,10 +36,11 @@ constexpr int kMaxReach = kTile;  // a picture 32 times as wide as a tile's reac
 /// Which active region owns each pixel of the tile and of a border of `reach` pixels around it.
 struct Owners {
     int reach, side;
-    std::vector<int> owner;
+    std::vector<std::int16_t> owner;
 
     Owners(const std::vector<const Region*>& regions, Size size, int column, int row, int border)
-        : reach(border), side(kTile + 2 * border), owner(static_cast<std::size_t>(side * side), kNone) {
+        : reach(border), side(kTile + 2 * border),
+          owner(static_cast<std::size_t>(side * side), static_cast<std::int16_t>(kNone)) {
         const int x0 = column * kTile - reach, y0 = row * kTile - reach;
         for (std::size_t k = regions.size(); k-- > 0;) {
             const Mask& mask = regions[k]->mask;
@@ -57,30 +61,40 @@ struct Owners {
         const int fromX = std::max(left, x0), toX = std::min({left + kTile, x0 + side, size.width});
         const int fromY = std::max(top, y0), toY = std::min({top + kTile, y0 + side, size.height});
         for (int y = fromY; y < toY; ++y) {
-            for (int x = fromX; x < toX; ++x) {
-                if (tile.at(x - left, y - top) >= 128) {
-                    owner[static_cast<std::size_t>((y - y0) * side + x - x0)] = region;
-                }
-            }
+            std::int16_t* row = &owner[static_cast<std::size_t>((y - y0) * side)];
+            for (int x = fromX; x < toX; ++x)
+                row[x - x0] = tile.at(x - left, y - top) >= 128 ? static_cast<std::int16_t>(region) : row[x - x0];
         }
     }
 
-    int at(int x, int y) const { return owner[static_cast<std::size_t>((y + reach) * side + x + reach)]; }
+    int at(int x, int y) const { return owner[index(x, y)]; }
+    std::size_t index(int x, int y) const { return static_cast<std::size_t>((y + reach) * side + x + reach); }
 
-    /// True if a pixel within `reach` along the axes or the diagonals belongs to somebody else.
-    bool onEdge(int x, int y) const {
-        const int mine = at(x, y);
+    /// For each pixel of the tile, whether one within `reach` along the axes or the diagonals belongs to somebody else.
+    /// Offset by offset, so that a row is compared at once: this runs for every tile a dab touches.
+    std::array<std::uint8_t, kTile * kTile> edges() const {
+        std::array<std::uint8_t, kTile * kTile> on{};
+        const auto compare = [&](int dx, int dy) {
+            for (int y = 0; y < kTile; ++y) {
+                const std::int16_t* mine = &owner[index(0, y)];
+                const std::int16_t* other = &owner[index(dx, y + dy)];
+                std::uint8_t* row = &on[static_cast<std::size_t>(y) * kTile];
+                for (int x = 0; x < kTile; ++x)
+                    row[x] = static_cast<std::uint8_t>(row[x] | (mine[x] != other[x] ? 1 : 0));
+            }
+        };
         const int diagonal = std::max(1, reach * 7 / 10);
         for (int step = 1; step <= reach; ++step) {
-            if (at(x + step, y) != mine || at(x - step, y) != mine || at(x, y + step) != mine ||
-                at(x, y - step) != mine)
-                return true;
-            if (step <= diagonal && (at(x + step, y + step) != mine || at(x - step, y - step) != mine ||
-                                     at(x + step, y - step) != mine || at(x - step, y + step) != mine)) {
-                return true;
+            for (const auto& [dx, dy] :
+                 {std::pair(step, 0), std::pair(-step, 0), std::pair(0, step), std::pair(0, -step)})
+                compare(dx, dy);
+            if (step > diagonal) continue;
+            for (const int dx : {-step, step}) {
+                compare(dx, -step);
+                compare(dx, step);
             }
         }
-        return false;
+        return on;
     }
 };
 
@@ -110,26 +124,26 @@ OverlayTile overlayTile(const Document& document, const RegionId& selected, int 
     const Owners owners(regions, size, column, row, reach);
     if (std::all_of(owners.owner.begin(), owners.owner.end(), [](int o) { return o == kNone; })) return out;
 
-    const int first = owners.owner.front();
-    const bool edgeless = std::all_of(owners.owner.begin(), owners.owner.end(), [&](int o) { return o == first; });
+    const auto edges = owners.edges();
 
     const int hatchPeriod = 14 * u, hatchWidth = 2 * u, dotPeriod = 8 * u;
     for (int y = 0; y < kTile; ++y) {
-        for (int x = 0; x < kTile; ++x) {
+        int phase = (column * kTile + row * kTile + y) % hatchPeriod;  // of the pixel's diagonal
+        for (int x = 0; x < kTile; ++x, phase = phase + 1 == hatchPeriod ? 0 : phase + 1) {
             const int owner = owners.at(x, y);
             if (owner == kNone) continue;
             const Region& region = *regions[static_cast<std::size_t>(owner)];
             const bool bright = region.id == selected;
             const int px = column * kTile + x, py = row * kTile + y;
             double alpha = 0.0;
-            if (!edgeless && owners.onEdge(x, y)) {
+            if (edges[static_cast<std::size_t>(y * kTile + x)] != 0) {
                 // Dots along either axis keep a dotted line dotted whichever way the border runs.
                 const bool dot =
                     ((px + py) % dotPeriod) < dotPeriod / 2 && ((px - py + (1 << 20)) % dotPeriod) < dotPeriod * 3 / 4;
                 const bool on = region.look != Look::focus || dot;
                 alpha = on ? (bright ? 1.0 : 0.75) : 0.12;
             } else if (region.look == Look::blur) {
-                alpha = (px + py) % hatchPeriod < hatchWidth ? (bright ? 0.6 : 0.42) : (bright ? 0.05 : 0.0);
+                alpha = phase < hatchWidth ? (bright ? 0.6 : 0.42) : (bright ? 0.05 : 0.0);
             } else {
                 alpha = bright ? 0.06 : 0.0;
             }

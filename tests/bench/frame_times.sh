@@ -38,6 +38,7 @@ start_display 1920 1080
 best=""
 for run in $(seq "$runs"); do
     times="$WORK/times-$run.json"
+    rm -rf "$ILF_STATE_DIR"  # or the studio would first ask about the stroke of the run before
     start_studio "$project" --size 1920x1080 --view perceived --reset-layout --frame-times "$times"
     sleep 4
     xdotool mousemove --window "$WINDOW" 420 420; sleep 0.5
