@@ -1,4 +1,5 @@
 // The seam page: blending and feather, the seam at the cursor, and every border with what hides it.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -44,9 +45,10 @@ void cursorSeam(Panel& p) {
 /// A feather that the borders ask for, as the one button that sets it.
 void featherButton(Panel& p, const BorderSeam& seam) {
     const Seam& now = p.document().seam;
-    const Metre width = seam.hiding.width;
+    // Whole millimetres, within what a feather may be.
+    const Metre width = std::min(0.2_m, std::ceil(seam.hiding.width.in(1.0_mm) - 1e-6) * 1.0_mm);
     if (seam.depthStep || now.blending != Blending::closedForm || width <= now.feather) return;
-    const std::string words = "Feather " + formatted(width.si(), Unit::millimetre);
+    const std::string words = "Feather " + std::to_string(std::lround(width.in(1.0_mm))) + " mm";
     if (ImGui::SmallButton((words + "###hide").c_str())) p.commit(SetSeam{{now.blending, width}});
     if (ImGui::IsItemHovered()) {
         tooltip(std::string(seam.hiding.clamped ? "As wide as the region has room for; leaves about "
@@ -93,9 +95,8 @@ void allBorders(Panel& p) {
         wrapped("No border between displaced light and other light.", colour::dim, Font::small);
         return;
     }
-    int shown = 0;
     for (const BorderSeam& seam : *seams) {
-        ImGui::PushID(shown++);
+        ImGui::PushID((seam.blurred + "/" + seam.other).c_str());
         borderRow(p, seam);
         ImGui::PopID();
     }
