@@ -71,6 +71,16 @@ struct Wanted {
     bool baselines = false, sizesOnly = false;
 };
 
+/// "seam: 0.000 D in 1 of 16 slots, rms 0.012 D; ..."
+void describe(const BenchScene& scene) {
+    std::fprintf(stderr, "%s:", scene.name.c_str());
+    for (const Level& level : scene.shown.plan.levels) {
+        std::fprintf(stderr, " %.3f D in %zu of %zu slots, rms %.3f D;", level.power.si(), level.slots.size(),
+                     scene.shown.plan.slots.size(), level.rmsError.si());
+    }
+    std::fputc('\n', stderr);
+}
+
 bool addScene(Table& table, const Wanted& wanted, const Options& options, const Machine& machine,
               const Patience& patience) {
     const auto scene = wanted.make();
@@ -79,6 +89,7 @@ bool addScene(Table& table, const Wanted& wanted, const Options& options, const 
         return false;
     }
     if (!options.wantsScene(scene->name)) return true;
+    describe(*scene);
     std::optional<Truth> truth;
     if (options.errors && !wanted.sizesOnly) {
         auto made = Truth::of(*scene);
@@ -113,6 +124,8 @@ int main(int argc, char** argv) {
             {seamScene, true},
             {[] { return fourObjectsEye(); }, true},
             {[] { return fourObjectsCamera(); }, true},
+            {[] { return fourObjectsEye(1024, bench::Light::usualBudget); }},
+            {[] { return fourObjectsCamera(1024, bench::Light::usualBudget); }},
             {fourSlotsCamera},
             {litTwice},
             {slantedDesk},

@@ -28,10 +28,14 @@ struct BenchScene {
     bool byHand = false;  ///< the program does not come from the compiler, so only its light can be edited
 };
 
+/// How long each level is lit: in the one slot where the lens turns round, as the figures have it; or in all slots that
+/// the rig's usual error budget allows, through which the lens moves on.
+enum class Light { oneSlotEach, usualBudget };
+
 /// Pixels are the scene's width; its height is three quarters of it, its angles stay (so radii grow along).
 Result<BenchScene> seamScene();
-Result<BenchScene> fourObjectsEye(int width = 1024);
-Result<BenchScene> fourObjectsCamera(int width = 1024);
+Result<BenchScene> fourObjectsEye(int width = 1024, Light light = Light::oneSlotEach);
+Result<BenchScene> fourObjectsCamera(int width = 1024, Light light = Light::oneSlotEach);
 Result<BenchScene> fourSlotsCamera();
 Result<BenchScene> litTwice();
 Result<BenchScene> slantedDesk();
@@ -50,7 +54,7 @@ Shown dimmed(const Shown& shown);
 /// A copy in which the light of the strongest level is halved on a disc of `diameter` picture pixels about the `step`th
 /// place inside the painted region.
 Shown dabbedLight(const BenchScene& scene, const Shown& from, double diameter, int step);
-/// Paints there and compiles what that changes.
+/// Erases or adds at the painted region's outline, and compiles what that changes.
 Result<Shown> dabbedMask(const BenchScene& scene, const Shown& from, double diameter, int step);
 /// The moved region 2 % of its vergence nearer for each step; planned and compiled.
 Result<Shown> moved(const BenchScene& scene, int step);
