@@ -39,12 +39,26 @@ Dioptre seenDefocus(const EyeOptics& eye, const Attention& attention, Metre dist
                            : defocus(eye, distance, lens, attention.amount);
 }
 
-PupilShift pupilShiftOf(const Document& document, const ViewRequest& request) {
-    if (request.gaze != Gaze::fixed) return {};
-    const Point<CameraFrame> axis = cameraAxis(document);
-    const double f = document.scene.scale.focalPixels;
-    return {pupilShift(std::atan((request.gazeAt.x - axis.x) / f)),
-            pupilShift(std::atan((request.gazeAt.y - axis.y) / f))};
+PupilShift pupilShiftOf(const Document& document, const Plan& plan, const ViewRequest& request) {
+    if (request.gaze != Gaze::fixed || plan.input.camera) return {};
+    const Region* at = &*document.background;
+    for (const Region* region : activeRegions(document)) {
+        if (region->mask.at(static_cast<int>(request.gazeAt.x), static_cast<int>(request.gazeAt.y)) < 128) continue;
+        at = region;
+        break;
+    }
+    const auto distance = distanceAt(document, *at, request.gazeAt);
+    if (!distance) return {};
+    // The eye turns about its centre of rotation, to where the point is seen through the lens at its focus power.
+    const Point<CameraFrame> centre = opticalCentre(document, request.eye, *distance);
+    const double perMetre = pixelsPerMetre(document, *distance);
+    const double right = (request.gazeAt.x - centre.x) / perMetre, down = (request.gazeAt.y - centre.y) / perMetre;
+    const double aside = std::hypot(right, down);
+    if (aside == 0.0) return {};
+    const double w = distance->si(), e = (plan.input.eye.lensToPupil + kPupilToRotationCentre).si();
+    const double power = plan.focusPower.si();
+    const Metre shift = pupilShift(std::atan(aside / (w + e - w * e * power)));
+    return {shift * (right / aside), shift * (down / aside)};
 }
 
 Appearance appearance(const Document& document, const Plan& plan, const ViewRequest& request,
@@ -55,7 +69,7 @@ Appearance appearance(const Document& document, const Plan& plan, const ViewRequ
     const double pixels = document.scene.scale.focalPixels * scale.nominal;
     // From the pupil through the lens's optical centre: where the surface does not move.
     const Point<CameraFrame> straight = opticalCentre(document, request.eye, distance);
-    const PupilShift shift = pupilShiftOf(document, request);
+    const PupilShift shift = pupilShiftOf(document, plan, request);
     const double aside = pixelsPerMetre(document, distance) * (distance / optics.lensToPupil);
     const Point<CameraFrame> centre{straight.x - aside * shift.right.si(), straight.y - aside * shift.down.si()};
     const bool turns = request.gaze == Gaze::follows && !plan.input.camera;
@@ -63,8 +77,8 @@ Appearance appearance(const Document& document, const Plan& plan, const ViewRequ
         return turns ? magnificationFrom(optics, MagnificationFrom::rotationCentre, {}, distance, from, lens)
                      : magnification(optics, distance, from, lens);
     };
-    return {pixels * halfAngle / scaled(0.0_D), scaled(plan.focusPower), centre.x * scale.x - window.x0,
-            centre.y * scale.y - window.y0};
+    return {pixels * halfAngle / magnification(optics, distance, 0.0_D, lens), scaled(plan.focusPower),
+            centre.x * scale.x - window.x0, centre.y * scale.y - window.y0};
 }
 
 }  // namespace ilf::view

@@ -35,10 +35,10 @@ Appearance appearance(const Document& document, const Plan& plan, const ViewRequ
                       const Attention& attention, const ViewScale& scale, PixelRect<ViewFrame> window, Metre distance,
                       Dioptre lens, Dioptre colour = {});
 
-/// How far a fixed gaze moves the pupil aside, metres across the lens: kPupilToRotationCentre sin(angle) for each axis.
+/// How far a fixed gaze moves the pupil aside, across the lens: kPupilToRotationCentre sin(angle), towards the point.
 struct PupilShift {
     Metre right, down;
 };
-PupilShift pupilShiftOf(const Document& document, const ViewRequest& request);
+PupilShift pupilShiftOf(const Document& document, const Plan& plan, const ViewRequest& request);
 
 }  // namespace ilf::view

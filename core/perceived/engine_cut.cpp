@@ -44,7 +44,7 @@ SceneCut::SceneCut(const Document& document, const Plan& plan, double step)
         part.region = region;
         if (const auto* constant = std::get_if<ConstantDistance>(&region->distance)) {
             const double vergence = (1.0 / constant->value).si();
-            byVergence.try_emplace(keyOf(vergence), CutSurface{region->id, 1.0 / Dioptre::fromSi(vergence)});
+            byVergence.try_emplace(keyOf(vergence), CutSurface{region->id, 1.0 / Dioptre::fromSi(vergence), false});
             part.nearest = part.farthest = vergence;
             part.constant = 0;  // known once all surfaces are
             parts_.push_back(std::move(part));
@@ -60,7 +60,7 @@ SceneCut::SceneCut(const Document& document, const Plan& plan, double step)
         const auto last = static_cast<long>(std::floor(part.nearest / step_));
         for (long bin = first; bin <= last; ++bin) {
             const double middle = (static_cast<double>(bin) + 0.5) * step_;
-            byVergence.try_emplace(keyOf(middle), CutSurface{region->id, 1.0 / Dioptre::fromSi(middle)});
+            byVergence.try_emplace(keyOf(middle), CutSurface{region->id, 1.0 / Dioptre::fromSi(middle), true});
             bandKeys[bin] = keyOf(middle);
         }
         parts_.push_back(std::move(part));
@@ -88,7 +88,7 @@ bool SceneCut::sameBut(const SceneCut& other) const {
     });
 }
 
-int SceneCut::surfaceOf(const Part& part, int x, int y) const {
+SceneCut::BetweenBands SceneCut::between(const Part& part, int x, int y) const {
     double vergence = 0.5 * (part.nearest + part.farthest);  // at holes of a depth map
     if (!part.fromDepth) {
         vergence = part.affine(x + 0.5, y + 0.5);
@@ -97,11 +97,13 @@ int SceneCut::surfaceOf(const Part& part, int x, int y) const {
         if (metres > 0.0) vergence = 1.0 / metres;
     }
     vergence = std::clamp(vergence, part.farthest, part.nearest);
-    return bands_.find(static_cast<long>(std::floor(vergence / step_)))->second;
+    const double first = std::floor(part.farthest / step_), last = std::floor(part.nearest / step_);
+    const double at = std::clamp(vergence / step_ - 0.5, first, last), band = std::floor(at);
+    return {static_cast<long>(band), static_cast<float>(at - band)};
 }
 
-void SceneCut::alphas(int x0, int y0, std::vector<std::array<float, kTilePixels>>& alphas,
-                      std::vector<bool>& touched) const {
+void SceneCut::shares(int x0, int y0, Tiles& shares) const {
+    auto& [alphas, touched] = shares;
     alphas.resize(surfaces_.size());
     touched.assign(surfaces_.size(), false);
     const int width = std::min(kTileW, size_.width - x0), height = std::min(kTileH, size_.height - y0);
@@ -144,22 +146,29 @@ void SceneCut::alphas(int x0, int y0, std::vector<std::array<float, kTilePixels>
                 const auto i = static_cast<std::size_t>(y * kTileW + x);
                 const float share = whole ? left[i] : left[i] * (static_cast<float>(covers[y * kTile + x]) / 255.0F);
                 if (share <= 0.0F) continue;
-                touch(surfaceOf(part, x0 + x, y0 + y))[i] += share;
+                const BetweenBands at = between(part, x0 + x, y0 + y);
+                touch(bands_.find(at.band)->second)[i] += (1.0F - at.next) * share;
+                if (at.next > 0.0F) touch(bands_.find(at.band + 1)->second)[i] += at.next * share;
                 left[i] -= share;
             }
         }
         if (whole) break;  // nothing is left for those beneath
     }
-    // Shares become alphas, from the nearest: what each covers of what is left.
-    std::array<float, kTilePixels> rest;
+}
+
+void SceneCut::toAlphas(Tiles& shares) const {
+    // From the nearest: `rest` is what constant ones leave, `sloped` what bands took of it.
+    std::array<float, kTilePixels> rest, sloped{};
     rest.fill(1.0F);
     for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-        if (!touched[k]) continue;
+        if (!shares.touched[k]) continue;
+        const bool band = surfaces_[k].sloped;
         for (std::size_t i = 0; i < kTilePixels; ++i) {
-            const float share = alphas[k][i];
-            const bool covers = share > 0.0F && rest[i] > kNothing;
-            alphas[k][i] = covers ? std::min(1.0F, share / rest[i]) : 0.0F;
-            if (covers) rest[i] -= share;
+            float& value = shares.values[k][i];
+            const float share = value, left = band ? rest[i] : rest[i] - sloped[i];
+            const bool covers = share > 0.0F && left > kNothing;
+            value = covers ? std::min(1.0F, share / left) : 0.0F;
+            if (covers) (band ? sloped[i] : rest[i]) += band ? share : -share;
         }
     }
 }

@@ -12,20 +12,27 @@ namespace ilf::view {
 struct CutSurface {
     RegionId region;
     Metre distance;
+    bool sloped = false;  ///< a band: bands add up where they meet, and hide each other nowhere
     bool operator==(const CutSurface&) const = default;
 };
 
-/// How a document's regions become surfaces at full size: constant ones by their vergence, sloped ones cut into bands
-/// on one grid, so that regions on one table lie on the same surfaces.
+/// How a document's regions become surfaces: constant ones by their vergence, sloped ones cut into bands on one grid,
+/// so that regions on one table lie on the same surfaces. A point between two bands belongs to both, by how near it is.
 class SceneCut {
 public:
     /// `step` is the vergence between two bands.
     SceneCut(const Document& document, const Plan& plan, double step);
     const std::vector<CutSurface>& surfaces() const { return surfaces_; }
 
-    /// alphas[k] (kTilePixels, row by row) for each surface of one tile of the view: what it covers of what nearer ones
-    /// leave. `touched[k]` tells which are not 0 everywhere.
-    void alphas(int x0, int y0, std::vector<std::array<float, kTilePixels>>& alphas, std::vector<bool>& touched) const;
+    /// One number for each pixel of a tile, surface by surface; only those that `touched` are filled in.
+    struct Tiles {
+        std::vector<std::array<float, kTilePixels>> values;
+        std::vector<bool> touched;
+    };
+    /// What each surface shows of the pixels of a tile of the picture, from its corner; adds up to at most 1.
+    void shares(int x0, int y0, Tiles& shares) const;
+    /// Shares become alphas, in place: what each covers of what nearer ones leave.
+    void toAlphas(Tiles& shares) const;
 
     /// The same cut, over other masks.
     bool sameBut(const SceneCut& other) const;
@@ -39,7 +46,12 @@ private:
         bool fromDepth = false;
         double nearest = 0.0, farthest = 0.0;  ///< vergences it is kept within, sloped only
     };
-    int surfaceOf(const Part& part, int x, int y) const;
+    /// Where a point lies between bands: the first one's number, and how much it belongs to the next.
+    struct BetweenBands {
+        long band = 0;
+        float next = 0.0F;
+    };
+    BetweenBands between(const Part& part, int x, int y) const;
     Size size_;
     double step_ = 1.0;
     Box<DepthMap> depth_;

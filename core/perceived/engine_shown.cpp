@@ -77,8 +77,10 @@ ViewRect Shown::litSamples(TileCount tiles, int tile, ViewRect lit) const {
     const int c = placing.coarse, lead = averaging(c).lead;
     const auto below = [&](int v) { return (v >= 0 ? v / c : -((c - 1 - v) / c)) - reach; };
     const auto above = [&](int v) { return below(v + c - 1) + 2 * reach; };
-    return {std::max(all.x0, below(lit.x0 - lead)), std::max(all.y0, below(lit.y0 - lead)),
-            std::min(all.x1, above(lit.x1 + lead)), std::min(all.y1, above(lit.y1 + lead))};
+    // In whole fours of rows from the top: the blur sums a row in an order that depends on its place among the four.
+    const int top = std::max(all.y0, below(lit.y0 - lead));
+    return {std::max(all.x0, below(lit.x0 - lead)), top - (top - all.y0) % 4, std::min(all.x1, above(lit.x1 + lead)),
+            std::min(all.y1, above(lit.y1 + lead))};
 }
 
 Shown shown(const Looks& looks, int colours, TileCount tiles, const RungRules& rules) {

@@ -13,6 +13,7 @@ namespace ilf::view {
 struct EngineSurface {
     RegionId region;
     Metre distance;
+    bool sloped = false;
     TilePlane alpha;
     std::array<PaddedPlane, 2> averaged;  ///< alpha over 2 x 2 and 4 x 4 pixels, if anything asks for it
     std::vector<ViewRect> changed;        ///< of alpha, since the view before

@@ -51,29 +51,8 @@ private:
                 ++counters_.unlit;
                 continue;
             }
-            bool hidden = false, shared = false;
-            conflicting_.clear();
-            for (const int j : look.passedBy) {
-                const EngineLook& nearer = light.looks[static_cast<std::size_t>(j)];
-                const TilePlane& passing = nearer.passing;
-                if (const float* values = passing.values(tile_)) {
-                    const bool conflict =
-                        !scene_.cells.empty() && nearer.shown.kernels.size() > 1 && look.shown.kernels.size() > 1;
-                    if (conflict) {
-                        conflicting_.push_back(j);
-                    } else if (!shared) {
-                        std::copy_n(values, kTilePixels, work_.shares.data());
-                        shared = true;
-                    } else {
-                        for (std::size_t i = 0; i < kTilePixels; ++i)
-                            work_.shares[i] *= values[i];
-                    }
-                } else if (passing.uniform(tile_) == 0.0F) {
-                    hidden = true;
-                    break;
-                }
-            }
-            if (hidden) {
+            bool shared = false;
+            if (!letPass(light, look, shared)) {
                 ++counters_.hidden;
                 continue;
             }
@@ -88,6 +67,42 @@ private:
             }
         }
         if (!cellsPassing_.empty()) ++counters_.conflicts;
+    }
+
+    /// What nearer surfaces let pass of a look, into work_.shares (if `shared`); false: nothing. Those that conflict
+    /// with it are kept for its cells. Bands of a slope hide together.
+    bool letPass(const EngineLight& light, const EngineLook& look, bool& shared) {
+        conflicting_.clear();
+        std::array<float, kTilePixels> slope;
+        bool sloped = false;
+        const auto hide = [&](const float* left) {
+            for (std::size_t i = 0; i < kTilePixels; ++i)
+                work_.shares[i] = shared ? work_.shares[i] * left[i] : left[i];
+            shared = true;
+        };
+        for (const int j : look.passedBy) {
+            const EngineLook& nearer = light.looks[static_cast<std::size_t>(j)];
+            const float* values = nearer.passing.values(tile_);
+            if (!values) {
+                if (nearer.passing.uniform(tile_) == 0.0F) return false;
+                continue;
+            }
+            if (scene_.surfaces[static_cast<std::size_t>(j)].sloped) {
+                for (std::size_t i = 0; i < kTilePixels; ++i)
+                    slope[i] = (sloped ? slope[i] : 1.0F) - (1.0F - values[i]);
+                sloped = true;
+            } else if (!scene_.cells.empty() && nearer.shown.kernels.size() > 1 && look.shown.kernels.size() > 1) {
+                conflicting_.push_back(j);
+            } else {
+                hide(values);
+            }
+        }
+        if (sloped) {
+            for (float& left : slope)
+                left = std::max(left, 0.0F);
+            hide(slope.data());
+        }
+        return true;
     }
 
     /// A cell of the pupil (0: the whole), and what nearer surfaces let pass of it.
@@ -205,17 +220,20 @@ private:
     /// What is seen past the lens: the picture.
     void beyondLens() {
         if (scene_.lights.empty()) return;
-        std::vector<float> left(kTilePixels, 1.0F);
+        std::array<float, kTilePixels> left, slope{};  // of constant surfaces, and what bands took of it
+        left.fill(1.0F);
         std::array<float, kTilePixels> lens;
         for (std::size_t k = 0; k < scene_.surfaces.size(); ++k) {
             const TilePlane& alpha = scene_.surfaces[k].alpha;
             if (alpha.isUniform(tile_, 0.0F)) continue;
+            const bool sloped = scene_.surfaces[k].sloped;
             const bool rim = lensShares(scene_.lights.front().looks[k].shown.looks[1], lens);
             std::array<float, kTilePixels> mask;
             for (std::size_t i = 0; i < kTilePixels; ++i) {
                 const float a = alpha.values(tile_) ? alpha.values(tile_)[i] : alpha.uniform(tile_);
-                mask[i] = rim ? a * left[i] * (1.0F - lens[i]) : 0.0F;
-                left[i] *= 1.0F - a;
+                const float share = a * (sloped ? left[i] : left[i] - slope[i]);
+                mask[i] = rim ? share * (1.0F - lens[i]) : 0.0F;
+                (sloped ? slope[i] : left[i]) += sloped ? share : -share;
             }
             if (!rim) continue;
             any_ = true;

@@ -44,7 +44,8 @@ bool takeAway(const EngineScene& scene, const EngineSurface& surface, const Show
     const ViewRect part = shown.litSamples(scene.tiles, tile, lit);
     if (lit.empty() || part.empty()) return false;
     if (surface.alpha.uniformOver(pixels, 1.0F)) {
-        into.fill(0.0F);
+        for (float& value : into)
+            value -= 1.0F;
         return true;
     }
     if (shown.still) {
@@ -178,17 +179,26 @@ void updateVisibility(EngineScene& scene, bool all, int threads) {
         shares.fill(1.0F);
         bool any = false;
         if (first) {
-            std::array<float, kTilePixels> one;
-            for (const Before& before : look.visibleBehind) {
-                one.fill(1.0F);
-                if (!takeAway(scene, scene.surfaces[static_cast<std::size_t>(before.nearer)], before.shown, job.tile,
-                              one)) {
-                    continue;
-                }
-                any = true;
+            // Constant surfaces hide what others let pass; bands of a slope hide together.
+            std::array<float, kTilePixels> one, slope;
+            slope.fill(1.0F);
+            bool sloped = false;
+            const auto hide = [&](const std::array<float, kTilePixels>& left) {
                 for (std::size_t p = 0; p < shares.size(); ++p)
-                    shares[p] *= std::clamp(one[p], 0.0F, 1.0F);
+                    shares[p] *= std::clamp(left[p], 0.0F, 1.0F);
+            };
+            for (const Before& before : look.visibleBehind) {
+                const EngineSurface& nearer = scene.surfaces[static_cast<std::size_t>(before.nearer)];
+                if (!nearer.sloped) one.fill(1.0F);
+                if (!takeAway(scene, nearer, before.shown, job.tile, nearer.sloped ? slope : one)) continue;
+                any = true;
+                if (nearer.sloped) {
+                    sloped = true;
+                } else {
+                    hide(one);
+                }
             }
+            if (sloped) hide(slope);
         } else {
             any = takeAway(scene, scene.surfaces[job.surface], look.shown, job.tile, shares);
         }

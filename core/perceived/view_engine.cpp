@@ -88,7 +88,8 @@ struct ViewEngine::State {
     bool plain = false;
 
     void geometry(const Document& document, const Plan& plan, const ViewRequest& request, const view::Setting& setting);
-    void surfaces(const Document& document, const Plan& plan, const ViewRequest& request, bool anew);
+    void surfaces(const Document& document, const ViewRequest& request, bool anew);
+    std::vector<Radiance> resizedShares(const Document& document) const;
     bool remasked(const Document& document, ViewRect rect) const;
     void addLight(const view::PowerLight& power, const std::vector<std::size_t>& takingPart,
                   const std::function<Looks(Metre, Dioptre)>& looksAt, int colours);
@@ -167,7 +168,7 @@ void ViewEngine::State::hiding(EngineLight& light, int cells) {
         EngineLook& farther = light.looks[k];
         if (!farther.takesPart) continue;
         for (std::size_t j = 0; j < k; ++j) {
-            if (scene.surfaces[j].region == scene.surfaces[k].region) continue;  // one sloped surface, cut
+            if (scene.surfaces[j].sloped && scene.surfaces[k].sloped) continue;  // they add up
             EngineLook& nearer = light.looks[j];
             const double a = seenRadius(nearer), b = seenRadius(farther);
             const double smaller = std::min(std::abs(a), std::abs(b));
@@ -208,13 +209,14 @@ int ViewEngine::State::cellsAcross() const {
 }
 
 /// At full size tile by tile where masks changed; at others all of it, and then what differs.
-void ViewEngine::State::surfaces(const Document& now, const Plan& planned, const ViewRequest& asked, bool anew) {
+void ViewEngine::State::surfaces(const Document& now, const ViewRequest& asked, bool anew) {
     if (anew) {
         scene.surfaces.clear();
         for (const view::CutSurface& surface : cut->surfaces()) {
             EngineSurface& made = scene.surfaces.emplace_back();
             made.region = surface.region;
             made.distance = surface.distance;
+            made.sloped = surface.sloped;
             made.alpha = TilePlane(scene.tiles, 0.0F);
         }
     }
@@ -226,35 +228,30 @@ void ViewEngine::State::surfaces(const Document& now, const Plan& planned, const
         if (anew || asked.scale != 1.0 || remasked(now, rect)) tiles.push_back(tile);
     }
     if (tiles.empty()) return;
-    std::vector<view::Surface> resized;
-    if (scene.size != now.scene.size()) {
-        resized = view::surfaces(layers(now, planned, asked.scale), {0, 0, scene.size.width, scene.size.height});
-    }
+    const std::vector<Radiance> resized = scene.size == now.scene.size() ? std::vector<Radiance>{} : resizedShares(now);
     std::vector<std::vector<std::pair<std::size_t, ViewRect>>> changed(tiles.size());
     view::shareOut(static_cast<int>(tiles.size()), threads, [&](int i) {
         const auto n = static_cast<std::size_t>(i);
         const ViewRect rect = scene.tiles.rect(tiles[n]);
-        thread_local std::vector<std::array<float, view::kTilePixels>> alphas;
-        std::vector<bool> touched;
+        thread_local view::SceneCut::Tiles shares;
         if (resized.empty()) {
-            cut->alphas(rect.x0, rect.y0, alphas, touched);
+            cut->shares(rect.x0, rect.y0, shares);
         } else {
-            alphas.resize(scene.surfaces.size());
-            touched.assign(scene.surfaces.size(), false);
+            shares.values.resize(scene.surfaces.size());
+            shares.touched.assign(scene.surfaces.size(), true);
             for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
-                const auto from = std::ranges::find(resized, scene.surfaces[k].distance, &view::Surface::distance);
-                if (from == resized.end()) continue;
-                touched[k] = true;
-                alphas[k].fill(0.0F);
+                shares.values[k].fill(0.0F);
                 for (int y = rect.y0; y < std::min(rect.y1, scene.size.height); ++y) {
-                    std::copy_n(from->alpha.row(y) + rect.x0, std::min(kTileW, scene.size.width - rect.x0),
-                                alphas[k].data() + (y - rect.y0) * kTileW);
+                    std::copy_n(resized[k].row(y) + rect.x0, std::min(kTileW, scene.size.width - rect.x0),
+                                shares.values[k].data() + (y - rect.y0) * kTileW);
                 }
             }
         }
+        cut->toAlphas(shares);
         for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
             TilePlane& alpha = scene.surfaces[k].alpha;
-            const ViewRect part = touched[k] ? alpha.set(tiles[n], alphas[k].data()) : alpha.fill(tiles[n], 0.0F);
+            const ViewRect part =
+                shares.touched[k] ? alpha.set(tiles[n], shares.values[k].data()) : alpha.fill(tiles[n], 0.0F);
             if (!part.empty()) changed[n].emplace_back(k, part);
         }
     });
@@ -262,6 +259,31 @@ void ViewEngine::State::surfaces(const Document& now, const Plan& planned, const
         for (const auto& [k, part] : one)
             scene.surfaces[k].changed.push_back(part);
     }
+}
+
+/// Each surface's shares of the whole picture, averaged to the view's size.
+std::vector<Radiance> ViewEngine::State::resizedShares(const Document& now) const {
+    const Size full = now.scene.size();
+    const view::TileCount tiles = view::tileCount(full);
+    const std::size_t width = static_cast<std::size_t>(full.width),
+                      count = width * static_cast<std::size_t>(full.height);
+    std::vector<std::vector<float>> shares(scene.surfaces.size(), std::vector<float>(count));
+    view::shareOut(tiles.count(), threads, [&](int tile) {
+        const ViewRect rect = tiles.rect(tile);
+        thread_local view::SceneCut::Tiles one;
+        cut->shares(rect.x0, rect.y0, one);
+        for (std::size_t k = 0; k < shares.size(); ++k) {
+            if (!one.touched[k]) continue;
+            for (int y = rect.y0; y < std::min(rect.y1, full.height); ++y) {
+                std::copy_n(one.values[k].data() + (y - rect.y0) * kTileW, std::min(kTileW, full.width - rect.x0),
+                            shares[k].data() + static_cast<std::size_t>(y) * width + static_cast<std::size_t>(rect.x0));
+            }
+        }
+    });
+    std::vector<Radiance> resized;
+    for (auto& share : shares)
+        resized.push_back(view::shrunk(Radiance(full, 1, std::move(share)), scene.size));
+    return resized;
 }
 
 /// A mask differs from the one of the view before somewhere under these pixels (of the picture).
@@ -372,13 +394,13 @@ Result<PerceivedView> ViewEngine::see(const Document& document, const Plan& plan
     }
     bool all = newPicture;
     if (!setting->plain) {
-        const double step = view::bandStep(document, plan, request.scale, 1.0);
+        const double step = view::bandStep(document, plan, request.scale, request.rung == Rung::dragging ? 2.0 : 1.0);
         view::SceneCut cut(document, plan, step);
         const bool geometry = newPicture || !samePlan || !sameRequest || !s.cut || !s.cut->sameBut(cut) ||
                               s.document.scene.scale != document.scene.scale || s.document.wearer != document.wearer ||
                               s.document.rig != document.rig;
         s.cut = std::move(cut);
-        s.surfaces(document, plan, request, geometry);
+        s.surfaces(document, request, geometry);
         if (geometry) {
             s.geometry(document, plan, request, *setting);
             all = true;

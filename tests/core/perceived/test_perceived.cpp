@@ -95,11 +95,12 @@ TEST_CASE("perceived: a still program is the plain view") {
 }
 
 TEST_CASE("perceived: a focused surface far from any border looks like the picture") {
+    // While it is lit the lens moves by up to 0.2 D, and edges by a tenth of a pixel: the middles of blocks stay.
     const Played scene = onePlane();
     const Radiance seen = fast(scene), plain = plainView(scene.document, 1.0);
     double worst = 0.0;
-    for (int y = 0; y < kSmall.height; ++y) {
-        for (int x = 0; x < 40; ++x)
+    for (int y = 2; y < kSmall.height; y += 5) {
+        for (int x = 2; x < 40; x += 5)
             worst = std::max(worst, std::abs(static_cast<double>(seen.at(x, y) - plain.at(x, y))));
     }
     CHECK(worst < 5e-3);  // eight bits of light
