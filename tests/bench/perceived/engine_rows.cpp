@@ -53,7 +53,7 @@ std::vector<Steps> stepsOf(const BenchScene& scene) {
             if (!next) break;
             steps.shown.push_back(*std::move(next));
         }
-        all.push_back(std::move(steps));
+        if (steps.shown.size() > 1) all.push_back(std::move(steps));
     }
     std::erase_if(all, [](const Steps& steps) { return steps.shown.empty(); });
     return all;

@@ -57,7 +57,7 @@ void add(Document& document, const std::string& name, Look look, double metres, 
 /// So little error is allowed that each level is lit where the lens turns round: over a slot of a sixteenth of the
 /// sweep a sine strays from its end by 0.0043 of its range, rms. No document asks for a blurShare of 0 otherwise.
 Document withOneSlotEach(Document document, Dioptre high) {
-    document.rig.powerBudget = 0.0044 * high;
+    document.rig.powerBudget = 0.005 * high;
     document.rig.blurShare = 0.0;
     return document;
 }
@@ -95,7 +95,10 @@ Result<Shown> compiled(const Document& document, const Compiled* previous = null
 
 /// Alpha such that the end of the sweep lies at `power`.
 Result<Document> sweptTo(Document document, Dioptre power) {
-    const auto first = plan(planInput(document));
+    Document usual = document;
+    usual.rig.powerBudget = Rig{}.powerBudget;
+    usual.rig.blurShare = Rig{}.blurShare;
+    const auto first = plan(planInput(usual));
     if (!first) return tl::unexpected(first.error());
     document.alpha = power - first->pS.value_or(power);
     return document;
