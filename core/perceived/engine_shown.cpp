@@ -30,7 +30,7 @@ void need(std::vector<float>& room, std::size_t numbers) {
 RungRules rulesOf(Rung rung) {
     switch (rung) {
     case Rung::dragging:
-        return {0.3, 5.0, 16.0, 1, 1, 0.0, 0.7};
+        return {0.3, 3.0, 12.0, 1, 1, 0.0, 0.7};
     case Rung::rest:
         return {0.12, 8.0, 28.0, 2, 3, 8.0, 0.35};
     case Rung::idle:
@@ -169,6 +169,14 @@ bool sumSource(Workspace& work, const Shown& shown, ViewRect part, const Source&
                                             readable.x0 - source.window.x0
                                       : nullptr;
     float* sums = work.sums.data();
+    if (shown.sharp) {  // no sums: the products themselves, row by row
+        if (readable != own) std::fill_n(sums, stride * (rows + 8), 0.0F);
+        products(sums + (readable.y0 - own.y0) * stride + (readable.x0 - own.x0), stride, readable.width(),
+                 readable.height(), mask, work.maskStride,
+                 source.values ? source.values->at(readable.x0, readable.y0) : nullptr,
+                 source.values ? source.values->stride() : 0);
+        return true;
+    }
     if (readable != own) std::fill_n(sums, stride * (rows + 8), 0.0F);
     float* from = sums + (readable.y0 - own.y0) * stride + (readable.x0 - own.x0);
     if (source.values) {
@@ -198,7 +206,10 @@ void addSummed(float* into, Workspace& work, const Shown& shown, const EdgeKerne
         const int spare = shown.reach - kernel->reach;
         blurBlock(block + x0, stride, width, (height + 3) / 4 * 4, work.sums.data() + spare * work.sumStride + spare,
                   work.sumStride, *kernel);
-    } else {
+    } else if (shown.sharp) {
+        for (int y = 0; y < height; ++y)
+            std::copy_n(work.sums.data() + y * work.sumStride, width, block + y * stride + x0);
+    } else {  // one colour is sharp where others are not
         for (int y = 0; y < height; ++y) {
             float* to = block + y * stride + x0;
             const float* above = work.sums.data() + (y + shown.reach) * work.sumStride + shown.reach;

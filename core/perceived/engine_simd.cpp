@@ -38,6 +38,19 @@ void prefixSumsHere(float* HWY_RESTRICT sums, int stride, int width, int rows, c
     }
 }
 
+void productsHere(float* HWY_RESTRICT out, int stride, int width, int rows, const float* HWY_RESTRICT mask,
+                  int maskStride, const float* HWY_RESTRICT values, int valueStride) {
+    const Floats d;
+    const int n = static_cast<int>(hn::Lanes(d));
+    for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < width; x += n) {
+            auto value = hn::LoadU(d, mask + y * maskStride + x);
+            if (values) value = hn::Mul(value, hn::LoadU(d, values + y * valueStride + x));
+            hn::StoreU(value, d, out + y * stride + x);
+        }
+    }
+}
+
 template <int kFirst, int kCount, class V, std::size_t kVectors>
 HWY_INLINE void addSteps(std::array<std::array<V, kVectors>, 4>& rows, const std::vector<EdgeKernel::Step>& steps,
                          const float* HWY_RESTRICT sums, int sumStride) {
@@ -234,6 +247,7 @@ HWY_AFTER_NAMESPACE();
 namespace ilf::view {
 
 HWY_EXPORT(prefixSumsHere);
+HWY_EXPORT(productsHere);
 HWY_EXPORT(blurBlockHere);
 HWY_EXPORT(resampleAcrossHere);
 HWY_EXPORT(resampleDownAddHere);
@@ -243,6 +257,10 @@ HWY_EXPORT(averageTileHere);
 void prefixSums(float* sums, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
                 int valueStride) {
     HWY_DYNAMIC_DISPATCH(prefixSumsHere)(sums, stride, width, rows, mask, maskStride, values, valueStride);
+}
+void products(float* out, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
+              int valueStride) {
+    HWY_DYNAMIC_DISPATCH(productsHere)(out, stride, width, rows, mask, maskStride, values, valueStride);
 }
 void blurBlock(float* block, int blockStride, int width, int height, const float* sums, int sumStride,
                const EdgeKernel& kernel) {

@@ -14,6 +14,10 @@ inline constexpr int kOverrun = 32;
 void prefixSums(float* sums, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
                 int valueStride);
 
+/// out = mask * values, row by row; null `values` are 1.
+void products(float* out, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
+              int valueStride);
+
 /// `block` (`width` x `height`, height rounded up to 4) from the running sums of its window.
 void blurBlock(float* block, int blockStride, int width, int height, const float* sums, int sumStride,
                const EdgeKernel& kernel);

@@ -28,13 +28,14 @@ struct Before {
 /// A surface in one light.
 struct EngineLook {
     Shown shown;
-    bool takesPart = true;                ///< false: its light is divided among other powers
-    std::vector<Before> visibleBehind;    ///< nearer ones blurred alike: settled on the surface
-    std::vector<int> passedBy;            ///< nearer ones blurred otherwise: settled in the view
-    bool hides = false;                   ///< some farther one asks for `passing`
-    TilePlane visible;                    ///< of each point, the share of rays that no alike one stops; empty: all
-    TilePlane passing;                    ///< of each view pixel, the share of rays that this surface lets pass
-    std::array<PaddedPlane, 3> averaged;  ///< light * albedo * alpha * visible, where the look is coarse
+    bool takesPart = true;                   ///< false: its light is divided among other powers
+    std::vector<Before> visibleBehind;       ///< nearer ones blurred alike: settled on the surface
+    std::vector<int> passedBy;               ///< nearer ones blurred otherwise: settled in the view
+    bool hides = false;                      ///< some farther one asks for `passing`
+    TilePlane visible;                       ///< of each point, the share of rays that no alike one stops; empty: all
+    TilePlane passing;                       ///< of each view pixel, the share of rays that this surface lets pass
+    std::vector<std::uint8_t> averagedDark;  ///< tiles of `averaged` that hold nothing
+    std::array<PaddedPlane, 3> averaged;     ///< light * albedo * alpha * visible, where the look is coarse
     std::vector<ViewRect> changedVisible, changedPassing;
 };
 

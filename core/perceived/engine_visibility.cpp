@@ -231,6 +231,7 @@ void updateAveraged(EngineScene& scene, bool all, int threads) {
             if (fresh) {
                 for (PaddedPlane& plane : look.averaged)
                     plane = averagedPlane(scene.tiles, coarse);
+                look.averagedDark.assign(static_cast<std::size_t>(scene.tiles.count()), 1);
             }
             Marks marks(scene.tiles);
             if (all || fresh) marks.markAll();
@@ -244,9 +245,8 @@ void updateAveraged(EngineScene& scene, bool all, int threads) {
                 mark(scene.changedLight[static_cast<std::size_t>(light.light.level)]);
             const auto planes = scene.planesOf(light, k);
             marks.each([&](int tile) {
-                // A fresh plane is dark already.
-                if (fresh && litBox(scene.tiles.rect(tile).grown(averaging(coarse).lead), planes).empty()) return;
-                jobs.push_back({l, k, tile});
+                const bool dark = litBox(scene.tiles.rect(tile).grown(averaging(coarse).lead), planes).empty();
+                if (!dark || look.averagedDark[static_cast<std::size_t>(tile)] == 0) jobs.push_back({l, k, tile});
             });
         }
     }
@@ -258,6 +258,7 @@ void updateAveraged(EngineScene& scene, bool all, int threads) {
         const auto planes = scene.planesOf(light, job.surface);
         const ViewRect rect = scene.tiles.rect(job.tile), window = rect.grown(averaging(coarse).lead);
         const bool dark = litBox(window, planes).empty();
+        look.averagedDark[static_cast<std::size_t>(job.tile)] = dark ? 1 : 0;
         if (!dark) maskOver(workspace(), window, planes);
         for (std::size_t c = 0; c < 3; ++c) {
             if (dark) {
