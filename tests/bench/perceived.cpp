@@ -19,7 +19,7 @@ using namespace ilf::bench;
 struct Options {
     std::string csv, markdown;
     std::string only;  ///< sections: machine, plane, scene, baseline, scaling; or part of a scene's name
-    double seconds = 0.3;
+    double seconds = 0.2;
     bool errors = true;
 
     bool wants(const std::string& section) const {
@@ -38,7 +38,7 @@ private:
 constexpr const char* kUsage =
     "usage: bench_perceived [--csv FILE] [--markdown FILE] [--only SECTION|SCENE] [--seconds S]\n"
     "                       [--no-errors]\n"
-    "sections: machine, plane, scene, baseline, scaling. --seconds: for one row (0.3).\n"
+    "sections: machine, plane, scene, baseline, scaling. --seconds: for one row (0.2).\n"
     "--benchmark_min_time=S, as the other benchmarks take it, is --seconds S --no-errors.\n";
 
 bool parsed(int argc, char** argv, Options& options) {

@@ -59,8 +59,8 @@ END
     panel eye "Four objects, eye" 15 70
     panel camera "Four objects, camera f/1.4" 15 70
     panel twice "Everything lit twice" 15 70
-    panel plane8 "One plane, disc of 8 px" 15 160
-    panel plane20 "One plane, disc of 20 px" 15 160
+    panel plane8 "One plane, disc of 8 px" 15 175
+    panel plane20 "One plane, disc of 20 px" 15 175
     echo "unset multiplot"
 } > "$work/plot.gp"
 gnuplot "$work/plot.gp"

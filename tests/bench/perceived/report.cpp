@@ -17,14 +17,16 @@ constexpr const char* kCamera = "four objects; camera";
 
 std::string number(double value, const char* format = "%.3g") {
     if (std::isnan(value)) return "-";
-    if (std::isinf(value)) return "exact";
+    if (std::isinf(value)) return "inf";
     char text[32];
     std::snprintf(text, sizeof text, format, value);
     return text;
 }
 
 std::string decibels(double value, double floor) {
-    return drowned(value, floor) ? "floor, above " + number(floor - kAboveFloor, "%.0f") : number(value, "%.1f");
+    if (std::isinf(value)) return "exact";
+    return drowned(value, floor) ? "above " + number(floor - kAboveFloor, "%.0f") + " dB (floor)"
+                                 : number(value, "%.1f") + " dB";
 }
 /// What of a PSNR is known.
 double known(double value, double floor) { return std::isnan(floor) ? value : std::min(value, floor - kAboveFloor); }
@@ -111,7 +113,7 @@ private:
     static std::string cell(const Row* row) {
         if (!row) return "-";
         std::string text = number(row->times.p50) + " ms";
-        if (!std::isnan(row->errors.psnr)) text += ", " + decibels(row->errors.psnr, row->errors.floor) + " dB";
+        if (!std::isnan(row->errors.psnr)) text += ", " + decibels(row->errors.psnr, row->errors.floor);
         return text;
     }
 
@@ -133,8 +135,7 @@ private:
                                             " of that time at the machine's peak, its bytes " + percent(row->ofMemory);
         line(figure,
              (std::isnan(milliseconds) ? "" : "<= " + number(milliseconds) + " ms, ") + ">= " + number(decibel) + " dB",
-             number(row->times.p50) + " ms, " + decibels(row->errors.psnr, row->errors.floor) + " dB", quick && right,
-             limit);
+             number(row->times.p50) + " ms, " + decibels(row->errors.psnr, row->errors.floor), quick && right, limit);
     }
     void band(const std::string& figure, Rung rung, double asked) {
         const Row* worst = nullptr;
@@ -144,7 +145,7 @@ private:
         }
         if (!worst) return;
         line(figure + ", four objects, the worse of eye and camera", ">= " + number(asked) + " dB",
-             decibels(worst->errors.band, worst->errors.bandFloor) + " dB",
+             decibels(worst->errors.band, worst->errors.bandFloor),
              known(worst->errors.band, worst->errors.bandFloor) >= asked);
     }
     void dabs() {

@@ -12,7 +12,7 @@ class Scaling {
 public:
     Scaling(Table& table, const Patience& patience, Rung rung) : table_(table), patience_(patience), rung_(rung) {}
 
-    /// The row's p50; nothing if the scene could not be made.
+    /// The row's least time, which what else runs disturbs least; nothing if the scene could not be made.
     double add(const std::string& family, const Result<BenchScene>& scene) {
         if (!scene) {
             std::fprintf(stderr, "%s: %s\n", family.c_str(), scene.error().what.c_str());
@@ -23,9 +23,9 @@ public:
         Row row = engineRow(*scene, {edit::kFull, {shown, dimmed(shown), shown}}, rung_, 1, patience_);
         row.section = "scaling";
         row.what = family;
-        const double p50 = row.times.p50;
+        const double least = row.times.least;
         table_.add(std::move(row));
-        return p50;
+        return least;
     }
     void conclude(const std::string& family, double figure, const std::string& unit) {
         Row row{.section = "scaling", .scene = "all", .method = std::string(word(rung_)), .what = family};
