@@ -32,4 +32,11 @@ ScreenView screenView(const PerceivedView& seen, const PerceivedView& before, co
 
 ScreenView screenView(const PerceivedView& seen) { return screenView(seen, {}, {}); }
 
+void shareEqual(ScreenView& view, const ScreenView& other) {
+    if (view.size != other.size || view.tiles.size() != other.tiles.size()) return;
+    for (std::size_t i = 0; i < view.tiles.size(); ++i) {
+        if (view.tiles[i] == other.tiles[i]) view.tiles[i] = other.tiles[i];
+    }
+}
+
 }  // namespace ilf::app

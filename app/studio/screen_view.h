@@ -25,4 +25,7 @@ struct ScreenView {
 ScreenView screenView(const PerceivedView& seen, const PerceivedView& before, const ScreenView& shown);
 ScreenView screenView(const PerceivedView& seen);
 
+/// Tiles of `view` that hold the same codes as those of `other` become the same boxes.
+void shareEqual(ScreenView& view, const ScreenView& other);
+
 }  // namespace ilf::app

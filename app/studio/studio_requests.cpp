@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "app/pictures_of.h"
+#include "app/studio/eye_view.h"
 #include "app/studio/studio.h"
 #include "core/base/srgb.h"
 #include "projects/pictures.h"
@@ -147,9 +148,8 @@ void Studio::on(const ui::ExportView& request) {
     } else if (ui_.mode == ui::ViewMode::light && done_.compiled) {
         picture = slotPicture(done_.compiled->program, ui_.slot);
     } else if (done_.compiled) {
-        ViewRequest wanted;
-        wanted.eye = ui_.eye;
         const Compiled& compiled = *done_.compiled;
+        const ViewRequest wanted = askedOf(compiled, ui_.seeing, ui_.eye);
         const auto seen = perceived(compiled.document, compiled.plan, compiled.program, wanted);
         if (!seen) return say(seen.error().what, ui::Tone::error);
         picture = toSrgb8(*seen);

@@ -1,7 +1,6 @@
 #include "app/studio/viewer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <string>
 
@@ -10,14 +9,19 @@
 namespace ilf::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::array<Eye, 2> kEyes{Eye::left, Eye::right};
 /// The seam is looked for this far from the cursor, as a share of the picture's width.
 constexpr double kSeamReach = 0.05;
 
 double viewScale(const Document& document) {
     return std::min(1.0, static_cast<double>(kViewWidth) / std::max(1, document.scene.size().width));
+}
+
+ViewRequest requestOf(const ViewJob& job, std::size_t eye, Rung rung) {
+    ViewRequest request = askedOf(*job.compiled, job.seeing, kEyes[eye]);
+    request.scale = viewScale(job.compiled->document);
+    request.rung = rung;
+    return request;
 }
 
 bool showTheSame(const ViewJob& a, const ViewJob& b) { return a.compiled == b.compiled && a.seeing == b.seeing; }
@@ -51,28 +55,10 @@ void Viewer::publish() {
     if (onNews_) onNews_();
 }
 
-bool Viewer::look(EyeView& view, const ViewJob& job, Eye eye, Rung rung, const std::function<bool()>& cancelled) {
-    const auto start = Clock::now();
-    ViewRequest request = job.seeing;
-    // What was looked at may be gone, or hidden, and a rig may have forgotten its colours: the view goes on without.
-    const auto attended = [&](const RegionPlan& region) { return region.id == request.attending; };
-    if (std::ranges::none_of(job.compiled->plan.regions, attended)) request.attending.reset();
-    request.chromatic = request.chromatic && job.compiled->document.rig.primaries;
-    request.eye = eye;
-    request.scale = viewScale(job.compiled->document);
-    request.rung = rung;
-    auto seen = view.engine.see(job.compiled->document, job.compiled->plan, job.compiled->program, request, cancelled);
-    if (!seen) {
-        seen_.refusal = seen.error();
-        return false;
-    }
-    if (!seen->complete) return false;
-    view.shown =
-        std::make_shared<const ScreenView>(view.shown ? screenView(*seen, view.seen, *view.shown) : screenView(*seen));
-    view.seen = *std::move(seen);
-    view.reached = rung;
-    view.ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    return true;
+bool Viewer::look(std::size_t eye, const ViewJob& job, Rung rung, const std::function<bool()>& cancelled) {
+    const auto done = eyes_[eye].look(*job.compiled, requestOf(job, eye, rung), cancelled);
+    if (!done) seen_.refusal = done.error();
+    return done.value_or(false);
 }
 
 void Viewer::work(const Posted& posted, const std::stop_token& stop) {
@@ -80,7 +66,7 @@ void Viewer::work(const Posted& posted, const std::stop_token& stop) {
     const Compiled& compiled = *job.compiled;
     if (posted.scene != scene_) {
         for (EyeView& eye : eyes_)
-            eye.reached.reset();
+            eye.sceneChanged();
         seen_.refusal.reset();
         scene_ = posted.scene;
     }
@@ -99,20 +85,20 @@ void Viewer::work(const Posted& posted, const std::stop_token& stop) {
         seen_.view_ms = 0.0;
         seen_.rung = Rung::idle;
         for (std::size_t i = 0; i < kEyes.size(); ++i) {
-            seen_.perceived[i] = job.eyes[i] ? eyes_[i].shown : nullptr;
-            if (!job.eyes[i] || !eyes_[i].reached) continue;
-            seen_.counters[i] = eyes_[i].seen.counters;
-            seen_.rung = std::min(seen_.rung, *eyes_[i].reached);
-            seen_.view_ms += eyes_[i].ms;
+            seen_.perceived[i] = job.eyes[i] ? eyes_[i].shown() : nullptr;
+            if (!job.eyes[i] || !eyes_[i].reached()) continue;
+            seen_.counters[i] = eyes_[i].counters();
+            seen_.rung = std::min(seen_.rung, *eyes_[i].reached());
+            seen_.view_ms += eyes_[i].took_ms();
         }
     };
     // A gesture's frames are seen through, or a fast hand would never see one; nothing else outlives its use.
     const auto outdated = [&] { return stop.stop_requested() || (!job.dragging && newestScene_ != posted.scene); };
     const auto disturbed = [&] { return stop.stop_requested() || jobs_.waiting(); };
     for (std::size_t i = 0; i < kEyes.size(); ++i) {
-        const auto& reached = eyes_[i].reached;
+        const auto reached = eyes_[i].reached();
         if (!job.eyes[i] || (reached && (job.dragging || *reached >= Rung::rest))) continue;
-        const bool done = look(eyes_[i], job, kEyes[i], job.dragging ? Rung::dragging : Rung::rest, outdated);
+        const bool done = look(i, job, job.dragging ? Rung::dragging : Rung::rest, outdated);
         if (!done && !seen_.refusal) return;
         if (!done) break;
     }
@@ -140,12 +126,15 @@ void Viewer::work(const Posted& posted, const std::stop_token& stop) {
         publish();
     }
     for (std::size_t i = 0; i < kEyes.size(); ++i) {
-        if (!job.eyes[i] || eyes_[i].reached == Rung::idle) continue;
-        if (!look(eyes_[i], job, kEyes[i], Rung::idle, disturbed) && !seen_.refusal) return;
+        if (!job.eyes[i] || eyes_[i].reached() == Rung::idle) continue;
+        if (!look(i, job, Rung::idle, disturbed) && !seen_.refusal) return;
     }
     fillIn();
     seen_.settled = true;
     publish();
+    for (std::size_t eye = 0; eye < kEyes.size() && !seen_.refusal; ++eye) {
+        if (job.eyes[eye]) eyes_[eye].prepareGesture(compiled, requestOf(job, eye, Rung::dragging), disturbed);
+    }
 }
 
 }  // namespace ilf::app

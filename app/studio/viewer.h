@@ -10,12 +10,11 @@
 #include <thread>
 #include <vector>
 
-#include "app/studio/screen_view.h"
+#include "app/studio/eye_view.h"
 #include "core/base/latest.h"
 #include "core/compile/compile.h"
 #include "core/perceived/seam_border.h"
 #include "core/perceived/seam_profile.h"
-#include "core/perceived/view_engine.h"
 #include "core/plan/report.h"
 
 namespace ilf::app {
@@ -53,8 +52,8 @@ struct Seen {
 
 /// A program never waits for a view: programs are made on another thread. While a gesture goes on every job is seen
 /// through at Rung::dragging (one at a time, so the view is at most one job old); once it is still the view is seen at
-/// Rung::rest, which a newer view ends early; then borders are judged and the view is seen at Rung::idle, both of which
-/// any newer job ends early.
+/// Rung::rest, which a newer view ends early; then borders are judged and the view is seen at Rung::idle, and then the
+/// next gesture is made ready; any newer job ends these early.
 class Viewer {
 public:
     /// `onNews` is called on the viewer's thread whenever `tryTake` has something new.
@@ -69,18 +68,11 @@ private:
         ViewJob job;
         std::uint64_t scene = 0;  ///< jobs with the same number show the same
     };
-    struct EyeView {
-        ViewEngine engine;
-        PerceivedView seen;
-        std::shared_ptr<const ScreenView> shown;
-        std::optional<Rung> reached;  ///< for the scene being looked at
-        double ms = 0.0;
-    };
 
     void run(std::stop_token stop);
     void work(const Posted& posted, const std::stop_token& stop);
     /// False: ended early by newer work, or refused.
-    bool look(EyeView& view, const ViewJob& job, Eye eye, Rung rung, const std::function<bool()>& cancelled);
+    bool look(std::size_t eye, const ViewJob& job, Rung rung, const std::function<bool()>& cancelled);
     void publish();
 
     Latest<Posted> jobs_;
