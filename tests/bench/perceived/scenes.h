@@ -25,6 +25,7 @@ struct BenchScene {
     ViewRequest request;  ///< its rung is set by the row
     RegionId painted;     ///< a blurred region whose light and outline a dab changes; empty: none
     RegionId moved;       ///< the region whose distance a geometry change moves
+    int rays = 4096;      ///< of the reference, for each pixel
     bool byHand = false;  ///< the program does not come from the compiler, so only its light can be edited
 };
 

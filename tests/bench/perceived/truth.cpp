@@ -13,7 +13,6 @@ namespace {
 
 /// Random pixels over the whole view, and more within the band.
 constexpr int kEverywhere = 6000, kInBand = 2000;
-constexpr int kRays = 4096;
 
 }  // namespace
 
@@ -50,7 +49,7 @@ Result<Truth> Truth::of(const BenchScene& scene) {
     const app::ReferenceCache cache;
     const std::span<const ViewPixel> all(pixels);
     for (const auto part : {all.first(kEverywhere), all.subspan(kEverywhere)}) {
-        const auto traced = cache.pixels(*reference, part, {kRays, 1});
+        const auto traced = cache.pixels(*reference, part, {scene.rays, 1});
         if (!traced) return tl::unexpected(traced.error());
         truth.radiance_.insert(truth.radiance_.end(), traced->radiance.begin(), traced->radiance.end());
         (part.data() == all.data() ? truth.floor_ : truth.bandFloor_) = traced->noiseFloor_dB;
