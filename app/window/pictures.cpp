@@ -73,7 +73,11 @@ bool Pictures::upload(EyeTexture& eye, const std::shared_ptr<const ScreenView>& 
                       std::chrono::steady_clock::time_point until) {
     if (view == eye.complete) return true;
     const std::size_t count = view->tiles.size();
-    if (eye.texture.reserve(view->size, true) || eye.tiles.size() != count) eye.tiles.assign(count, {});
+    if (eye.texture.reserve(view->size, true) || eye.tiles.size() != count) {
+        eye.tiles.assign(count, {});
+        eye.next = 0;
+    }
+    eye.complete.reset();  // until the last tile, the texture is part this view, part the one before
     // Goes on where the last frame stopped, so that a view that changes all over and often is shown all over.
     for (std::size_t looked = 0; looked < count; ++looked, eye.next = (eye.next + 1) % count) {
         const Box<ScreenTile>& tile = view->tiles[eye.next];

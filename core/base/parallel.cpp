@@ -2,8 +2,10 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace ilf {
 
@@ -29,14 +31,21 @@ public:
         work_ = nullptr;
         changed_.wait(lock, [this] { return !busy_; });
         helping_ = false;
+        if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
     }
 
     std::atomic<bool> inUse{false};  // not a mutex: the same thread may ask again from inside `work`
 
 private:
     void takeAll(int count, const std::function<void(int)>& work) {
-        for (int i = next_++; i < count; i = next_++)
-            work(i);
+        try {
+            for (int i = next_++; i < count; i = next_++)
+                work(i);
+        } catch (...) {  // memory ran out: the loop ends, and its caller is told once nobody works any more
+            next_ = count;
+            const std::scoped_lock lock(mutex_);
+            if (!thrown_) thrown_ = std::current_exception();
+        }
     }
     void run(const std::stop_token& stop) {
         std::unique_lock lock(mutex_);
@@ -58,9 +67,16 @@ private:
     std::atomic<int> next_{0};
     int count_ = 0;
     const std::function<void(int)>* work_ = nullptr;
+    std::exception_ptr thrown_;
     bool helping_ = false;
     bool busy_ = false;
     std::jthread thread_;  // last: it joins before what it uses goes
+};
+
+/// Lets the helper go, however the loop ends.
+struct Released {
+    std::atomic<bool>& inUse;
+    ~Released() { inUse = false; }
 };
 
 }  // namespace
@@ -70,8 +86,8 @@ void parallelFor(int count, const std::function<void(int)>& work) {
     if (count > 1) {
         static Helper helper;
         if (!helper.inUse.exchange(true)) {
+            const Released released{helper.inUse};
             helper.loop(count, work);
-            helper.inUse = false;
             return;
         }
     }

@@ -38,6 +38,7 @@ Appearance appearance(const Document& document, const Plan& plan, const ViewRequ
 /// How far a fixed gaze moves the pupil aside, across the lens: kPupilToRotationCentre sin(angle), towards the point.
 struct PupilShift {
     Metre right, down;
+    bool operator==(const PupilShift&) const = default;
 };
 PupilShift pupilShiftOf(const Document& document, const Plan& plan, const ViewRequest& request);
 

@@ -45,13 +45,15 @@ ViewRect TilePlane::set(int tile, const float* values) {
         if (!differs) continue;
         first = 0;
         last = kTileW;
-        while (now[first] == before[first])
+        while (first < kTileW && now[first] == before[first])
             ++first;
-        while (now[last - 1] == before[last - 1])
+        while (last > first && now[last - 1] == before[last - 1])
             --last;
         changed = changed.united({rect.x0 + first, rect.y0 + y, rect.x0 + last, rect.y0 + y + 1});
         std::memcpy(before, now, sizeof(float) * kTileW);
     }
+    // What reads a window asks for the box of all light near it: a box that grew or shrank is a change over all of it.
+    if (cell.box != above) changed = changed.united(cell.box).united(above);
     cell.box = above;
     if (same) {
         cell.values.reset();

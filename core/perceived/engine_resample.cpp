@@ -84,14 +84,24 @@ private:
 /// quadrature of the second kind. Small discs round only the corners at samples, where a blur between samples would be
 /// smeared once more by interpolation.
 Four softened(double radius, double t) {
-    constexpr int kPoints = 12;
+    struct Point {
+        double at, part;
+    };
+    static const auto points = [] {
+        std::array<Point, 12> made{};
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            const double n = static_cast<double>(made.size()) + 1.0;
+            const double angle = std::numbers::pi * (static_cast<double>(i) + 1.0) / n, sine = std::sin(angle);
+            made[i] = {std::cos(angle), 2.0 * sine * sine / n};
+        }
+        return made;
+    }();
     Four weights{};
-    for (int i = 1; i <= kPoints; ++i) {
-        const double angle = std::numbers::pi * i / (kPoints + 1), sine = std::sin(angle);
-        const double at = t + radius * std::cos(angle), left = std::floor(at), part = 2.0 * sine * sine / (kPoints + 1);
+    for (const Point& point : points) {
+        const double at = t + radius * point.at, left = std::floor(at);
         const auto first = static_cast<std::size_t>(static_cast<int>(left) + 1);
-        weights[first] += part * (1.0 - (at - left));
-        if (first + 1 < 4) weights[first + 1] += part * (at - left);
+        weights[first] += point.part * (1.0 - (at - left));
+        if (first + 1 < 4) weights[first + 1] += point.part * (at - left);
     }
     return weights;
 }

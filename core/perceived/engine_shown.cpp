@@ -15,8 +15,9 @@ constexpr double kSameColour = 0.1;
 constexpr double kNoShift = 0.02;
 
 std::shared_ptr<const EdgeKernel> kernelOf(double radius, int coarse, const PupilCell& cell) {
-    return std::make_shared<const EdgeKernel>(
-        edgeKernel(radius / coarse, cell, coarse == 1 ? PixelShape::tent : PixelShape::box));
+    const double least = std::copysign(1e-6, radius);  // exactly in focus beside colours that are not
+    return std::make_shared<const EdgeKernel>(edgeKernel(std::abs(radius) < 1e-6 ? least : radius / coarse, cell,
+                                                         coarse == 1 ? PixelShape::tent : PixelShape::box));
 }
 
 int padded(int numbers) { return (numbers + 15) / 16 * 16 + kOverrun; }
@@ -89,14 +90,15 @@ Shown shown(const Looks& looks, int colours, TileCount tiles, const RungRules& r
     made.colours = colours;
     double least = 1e9, most = 0.0;
     for (std::size_t c = 0; c < static_cast<std::size_t>(colours); ++c) {
-        least = std::min(least, std::abs(looks[c].radius));
-        most = std::max(most, std::abs(looks[c].radius));
+        const double radius = std::abs(looks[colours == 1 ? 1 : c].radius);
+        least = std::min(least, radius);
+        most = std::max(most, radius);
     }
     const Appearance& look = looks[1];
     const double far = std::max(
         {look.centreX, look.centreY, tiles.columns * kTileW - look.centreX, tiles.rows * kTileH - look.centreY});
-    made.sharp = most < kSoft && most - least < kSameColour;
     made.still = most < rules.blur_px && std::abs(look.magnification - 1.0) * far < kNoShift;
+    made.sharp = made.still || (most < kSoft && most - least < kSameColour);
     const int coarse = least >= rules.quarter_px ? 4 : least >= rules.half_px ? 2 : 1;
     made.placing = {coarse,
                     look.magnification,
@@ -198,10 +200,12 @@ void addSummed(float* into, Workspace& work, const Shown& shown, const EdgeKerne
     const DownTaps& down = shown.down[static_cast<std::size_t>(tile / tiles.columns)];
     // Samples of the tile, of which `part` is not 0. The blur writes whole fours of rows and whole vectors.
     const int stride = padded(across.width + AcrossTaps::kLanes);
-    need(work.block, static_cast<std::size_t>(stride) * static_cast<std::size_t>(down.height + 8) + kOverrun);
+    // Lanes of zero weight reach up to a vector to the left of a row.
+    need(work.block,
+         static_cast<std::size_t>(stride) * static_cast<std::size_t>(down.height + 8) + kOverrun + AcrossTaps::kLanes);
     need(work.across, static_cast<std::size_t>(kTileW) * static_cast<std::size_t>(down.height + 8) + kOverrun);
     const int x0 = part.x0 - across.first, y0 = part.y0 - down.first, width = part.width(), height = part.height();
-    float* block = work.block.data() + y0 * stride;
+    float* block = work.block.data() + AcrossTaps::kLanes + y0 * stride;
     if (kernel) {
         const int spare = shown.reach - kernel->reach;
         blurBlock(block + x0, stride, width, (height + 3) / 4 * 4, work.sums.data() + spare * work.sumStride + spare,

@@ -281,7 +281,5 @@ void averageTile(float* out, int outStride, int coarse, const float* mask, int m
     HWY_DYNAMIC_DISPATCH(averageTileHere)
     (out, outStride, coarse, mask, maskStride, values, valueStride, averaging);
 }
-const char* simdTarget() { return hwy::TargetName(hwy::SupportedTargets() & -hwy::SupportedTargets()); }
-
 }  // namespace ilf::view
 #endif

@@ -38,7 +38,4 @@ void addTile(float* into, const float* shares, const float* mask, const float* v
 void averageTile(float* out, int outStride, int coarse, const float* mask, int maskStride, const float* values,
                  int valueStride, const Averaging& averaging);
 
-/// "AVX3", "AVX2", ...: what the processor was given.
-const char* simdTarget();
-
 }  // namespace ilf::view

@@ -39,6 +39,12 @@ struct EngineLook {
     std::vector<ViewRect> changedVisible, changedPassing;
 };
 
+/// Averages that a look of a former geometry leaves to the next one: fresh memory costs more than to fill it.
+struct SpareAverages {
+    std::array<PaddedPlane, 3> averaged;
+    std::vector<std::uint8_t> dark;
+};
+
 struct EngineLight {
     PowerLight light;
     std::vector<EngineLook> looks;  ///< by surface
@@ -54,6 +60,8 @@ struct EngineScene {
     std::vector<TilePlane> lightOfLevel;
     std::vector<std::vector<ViewRect>> changedLight;  ///< by level
     std::vector<EngineLight> lights;
+    std::array<std::vector<SpareAverages>, 2> spareAverages;  ///< over 2 x 2 and 4 x 4 pixels
+    std::vector<TilePlane> spareShares;
     std::vector<PupilCell> cells;  ///< empty: the whole pupil at once
     bool lensField = false;
     double lensRadius_px = 0.0, pupilRadius_px = 0.0;  ///< across the lens, as seen from the pupil, in view pixels

@@ -56,7 +56,7 @@ private:
                 ++counters_.hidden;
                 continue;
             }
-            if (scene_.lensField) throughLens(look, shared);
+            if (scene_.lensField && !throughLens(look, shared)) continue;
             any_ = true;
             const float weight = static_cast<float>(light.light.weight);
             if (!conflicting_.empty()) {
@@ -83,9 +83,13 @@ private:
         for (const int j : look.passedBy) {
             const EngineLook& nearer = light.looks[static_cast<std::size_t>(j)];
             const float* values = nearer.passing.values(tile_);
+            std::array<float, kTilePixels> even;
             if (!values) {
-                if (nearer.passing.uniform(tile_) == 0.0F) return false;
-                continue;
+                const float uniform = nearer.passing.uniform(tile_);
+                if (uniform == 0.0F) return false;
+                if (uniform == 1.0F) continue;
+                even.fill(uniform);
+                values = even.data();
             }
             if (scene_.surfaces[static_cast<std::size_t>(j)].sloped) {
                 for (std::size_t i = 0; i < kTilePixels; ++i)
@@ -209,12 +213,15 @@ private:
         return true;
     }
 
-    void throughLens(const EngineLook& look, bool& shared) {
+    /// False: no ray of the tile meets the lens.
+    bool throughLens(const EngineLook& look, bool& shared) {
         std::array<float, kTilePixels> lens;
-        if (!lensShares(look.shown.looks[1], lens)) return;
+        if (!lensShares(look.shown.looks[1], lens)) return true;
+        if (std::ranges::all_of(lens, [](float share) { return share == 0.0F; })) return false;
         for (std::size_t i = 0; i < kTilePixels; ++i)
             work_.shares[i] = shared ? work_.shares[i] * lens[i] : lens[i];
         shared = true;
+        return true;
     }
 
     /// What is seen past the lens: the picture.

@@ -1,6 +1,7 @@
 // Who hides whom, worked out tile by tile where a surface's outline changed; and light averaged for coarse discs.
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/perceived/engine_state.h"
@@ -127,19 +128,22 @@ void shareOut(int count, int threads, const std::function<void(int)>& work) {
 
 void updateVisibility(EngineScene& scene, bool all, int threads) {
     if (all) {
-        for (EngineSurface& surface : scene.surfaces)
-            surface.averaged = {};
-        const auto ask = [&](const Shown& shown, int surface) {
-            if (shown.placing.coarse == 1) return;
-            PaddedPlane& plane =
-                scene.surfaces[static_cast<std::size_t>(surface)].averaged[shown.placing.coarse == 2 ? 0 : 1];
-            if (plane.empty()) plane = averagedPlane(scene.tiles, shown.placing.coarse);
+        std::vector<std::array<bool, 2>> asked(scene.surfaces.size());
+        const auto ask = [&](const Shown& shown, std::size_t surface) {
+            if (shown.placing.coarse != 1) asked[surface][shown.placing.coarse == 2 ? 0 : 1] = true;
         };
         for (const EngineLight& light : scene.lights) {
             for (std::size_t k = 0; k < light.looks.size(); ++k) {
-                if (light.looks[k].hides) ask(light.looks[k].shown, static_cast<int>(k));
+                if (light.looks[k].hides) ask(light.looks[k].shown, k);
                 for (const Before& before : light.looks[k].visibleBehind)
-                    ask(before.shown, before.nearer);
+                    ask(before.shown, static_cast<std::size_t>(before.nearer));
+            }
+        }
+        for (std::size_t k = 0; k < asked.size(); ++k) {
+            for (std::size_t which = 0; which < 2; ++which) {
+                PaddedPlane& plane = scene.surfaces[k].averaged[which];
+                if (!asked[k][which]) plane = {};
+                if (asked[k][which] && plane.empty()) plane = averagedPlane(scene.tiles, which == 0 ? 2 : 4);
             }
         }
     }
@@ -228,7 +232,12 @@ void updateAveraged(EngineScene& scene, bool all, int threads) {
             const int coarse = look.shown.placing.coarse;
             if (coarse == 1 || !look.takesPart) continue;
             const bool fresh = look.averaged[0].empty();
-            if (fresh) {
+            auto& spare = scene.spareAverages[coarse == 2 ? 0 : 1];
+            if (fresh && !spare.empty()) {
+                look.averaged = std::move(spare.back().averaged);
+                look.averagedDark = std::move(spare.back().dark);
+                spare.pop_back();
+            } else if (fresh) {
                 for (PaddedPlane& plane : look.averaged)
                     plane = averagedPlane(scene.tiles, coarse);
                 look.averagedDark.assign(static_cast<std::size_t>(scene.tiles.count()), 1);

@@ -12,8 +12,9 @@ Result<Setting> setting(const Document& document, const Plan& plan, const Progra
         return fail(Fault::outOfRange, "A view's scale must be more than 0 and at most 1.");
     }
     if (const auto good = checked(program); !good) return tl::unexpected(good.error());
-    if (program.imageOfSlot.size() != plan.slots.size()) {
-        return fail(Fault::outOfRange, "The program and the plan have different numbers of slots. Compile again.");
+    if (program.imageOfSlot.size() != plan.slots.size() || program.images.size() < plan.levels.size()) {
+        return fail(Fault::outOfRange,
+                    "The program and the plan have different numbers of slots or levels. Compile again.");
     }
     const auto eye = attention(plan, request);
     if (!eye) return tl::unexpected(eye.error());

@@ -44,9 +44,5 @@ struct Light {
     Dioptre power;
     double weight = 1.0;
 };
-/// Slots are seen at their level's power; how far the lens strays from it is the plan's rms error. Dark images are left
-/// out.
-std::vector<Light> lights(const Document& document, const Plan& plan, const Program& program, const ViewScale& scale,
-                          PixelRect<ViewFrame> window);
 
 }  // namespace ilf::view

@@ -43,6 +43,18 @@ PaddedPlane planeOf(const Radiance& albedo, std::size_t colour, view::TileCount 
     return plane;
 }
 
+Box<ViewTile> pictureTile(const EngineScene& scene, int tile) {
+    ViewTile picture;
+    const ViewRect rect = scene.tiles.rect(tile);
+    for (std::size_t c = 0; c < 3; ++c) {
+        for (int y = 0; y < kTileH; ++y) {
+            std::copy_n(scene.albedo[c].at(rect.x0, rect.y0 + y), kTileW,
+                        picture.v.data() + c * view::kTilePixels + static_cast<std::size_t>(y * kTileW));
+        }
+    }
+    return Box<ViewTile>(picture);
+}
+
 /// Of a disc as it is seen, view pixels.
 double seenRadius(const EngineLook& look) {
     const view::Appearance& green = look.shown.looks[1];
@@ -55,13 +67,16 @@ Looks asMet(const Looks& nearer, const Looks& farther) {
     Looks met;
     for (std::size_t c = 0; c < met.size(); ++c) {
         const view::Appearance &j = nearer[c], &k = farther[c];
-        const double s = j.magnification / k.magnification;  // x -> X magnifies by s about a centre of its own
+        // x -> X magnifies by s about a centre of its own
+        double s = j.magnification / k.magnification;
+        if (std::abs(1.0 - s) < 1e-9) s = 1.0 - 1e-9;
         met[c].radius = (j.radius * j.magnification - k.radius * k.magnification) / j.magnification;
         met[c].magnification = s;
         // Fixed point: X = c_k + (c_j + s_j (x - c_j) - c_k) / s_k with X = x.
         const auto fixed = [&](double cj, double ck) {
             const double shift = (cj - ck) * (1.0 - j.magnification) / k.magnification;
-            return std::abs(1.0 - s) < 1e-12 ? ck : ck + shift / (1.0 - s);
+            // A shift without magnification is one about a centre far away.
+            return shift == 0.0 ? ck : ck + shift / (1.0 - s);
         };
         met[c].centreX = fixed(j.centreX, k.centreX);
         met[c].centreY = fixed(j.centreY, k.centreY);
@@ -77,7 +92,8 @@ struct ViewEngine::State {
     std::optional<view::SceneCut> cut;
     std::vector<view::LightRaster> rasters;
     PerceivedView last;
-    std::vector<bool> pending;  ///< tiles that a cancelled view left to be worked out
+    std::vector<Box<ViewTile>> plainTiles;  ///< of the picture; empty until one is shown
+    std::vector<bool> pending;              ///< tiles that a cancelled view left to be worked out
     // What the last view was of.
     bool seen = false;
     Document document;
@@ -86,6 +102,7 @@ struct ViewEngine::State {
     ViewRequest request;
     Box<Picture> picture;
     bool plain = false;
+    view::PupilShift shift;
 
     void geometry(const Document& document, const Plan& plan, const ViewRequest& request, const view::Setting& setting);
     void surfaces(const Document& document, const ViewRequest& request, bool anew);
@@ -94,6 +111,7 @@ struct ViewEngine::State {
     void addLight(const view::PowerLight& power, const std::vector<std::size_t>& takingPart,
                   const std::function<Looks(Metre, Dioptre)>& looksAt, int colours);
     void hiding(EngineLight& light, int cells);
+    TilePlane sharesPlane();
     int cellsAcross() const;
     void light(const Document& document, const Program& program, const view::Setting& setting, bool all);
 };
@@ -119,9 +137,22 @@ void ViewEngine::State::geometry(const Document& now, const Plan& planned, const
         }
         return looks;
     };
-    // A dioptre moves what lies off the centre (the rms of the view) by this much.
-    const double moves_px =
+    // A dioptre moves what lies off the centre (the rms of the view) by this much, or blurs it, whichever is more.
+    const double moved_px =
         planned.input.eye.lensToPupil.si() * std::hypot(scene.size.width, scene.size.height) / std::sqrt(12.0);
+    const double blurred_px = 0.25 * now.scene.scale.focalPixels * setting.scale.nominal * planned.input.eye.pupil.si();
+    const double moves_px = std::max(moved_px, blurred_px);
+    for (EngineLight& light : scene.lights) {
+        for (EngineLook& look : light.looks) {
+            if (!look.averaged[0].empty()) {
+                scene.spareAverages[look.shown.placing.coarse == 2 ? 0 : 1].push_back(
+                    {std::move(look.averaged), std::move(look.averagedDark)});
+            }
+            for (TilePlane* plane : {&look.visible, &look.passing}) {
+                if (!plane->empty()) scene.spareShares.push_back(std::move(*plane));
+            }
+        }
+    }
     scene.lights.clear();
     for (const view::PowerSpread& spread : view::powerSpreads(planned)) {
         // Surfaces that are blurred anyway need fewer powers: by factors of two, so that most share theirs.
@@ -185,11 +216,19 @@ void ViewEngine::State::hiding(EngineLight& light, int cells) {
                 }
             }
         }
-        if (!farther.visibleBehind.empty()) farther.visible = TilePlane(scene.tiles, 1.0F);
+        if (!farther.visibleBehind.empty()) farther.visible = sharesPlane();
     }
     for (EngineLook& look : light.looks) {
-        if (look.hides) look.passing = TilePlane(scene.tiles, 1.0F);
+        if (look.hides) look.passing = sharesPlane();
     }
+}
+
+/// All of it is worked out next: what a spare one holds does not matter.
+TilePlane ViewEngine::State::sharesPlane() {
+    if (scene.spareShares.empty()) return {scene.tiles, 1.0F};
+    TilePlane spare = std::move(scene.spareShares.back());
+    scene.spareShares.pop_back();
+    return spare;
 }
 
 /// How finely the pupil is cut: by the largest blur of which two surfaces differ.
@@ -211,13 +250,13 @@ int ViewEngine::State::cellsAcross() const {
 /// At full size tile by tile where masks changed; at others all of it, and then what differs.
 void ViewEngine::State::surfaces(const Document& now, const ViewRequest& asked, bool anew) {
     if (anew) {
-        scene.surfaces.clear();
-        for (const view::CutSurface& surface : cut->surfaces()) {
-            EngineSurface& made = scene.surfaces.emplace_back();
-            made.region = surface.region;
-            made.distance = surface.distance;
-            made.sloped = surface.sloped;
-            made.alpha = TilePlane(scene.tiles, 0.0F);
+        scene.surfaces.resize(cut->surfaces().size());
+        for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
+            EngineSurface& made = scene.surfaces[k];
+            made.region = cut->surfaces()[k].region;
+            made.distance = cut->surfaces()[k].distance;
+            made.sloped = cut->surfaces()[k].sloped;
+            if (made.alpha.empty()) made.alpha = TilePlane(scene.tiles, 0.0F);
         }
     }
     for (EngineSurface& surface : scene.surfaces)
@@ -316,10 +355,13 @@ void ViewEngine::State::light(const Document& now, const Program& played, const 
         for (const auto& rect : changed) {
             if (all) break;
             // A projector pixel lights what lies between its neighbours' centres.
+            ViewRect reached{0, 0, scene.size.width, scene.size.height};
             double x0 = 1e30, y0 = 1e30, x1 = -1e30, y1 = -1e30;
+            bool within = true;  // this side of the registration's horizon
             for (const double x : {rect.x0 - 1.0, rect.x1 + 1.0}) {
                 for (const double y : {rect.y0 - 1.0, rect.y1 + 1.0}) {
                     const auto at = toCamera({x, y});
+                    within = within && toCamera.m[6] * x + toCamera.m[7] * y + toCamera.m[8] > 0.0;
                     x0 = std::min(x0, at.x * setting.scale.x);
                     x1 = std::max(x1, at.x * setting.scale.x);
                     y0 = std::min(y0, at.y * setting.scale.y);
@@ -327,10 +369,12 @@ void ViewEngine::State::light(const Document& now, const Program& played, const 
                 }
             }
             const auto bounded = [](double v, int limit) { return std::clamp(v, -1.0, limit + 1.0); };
-            const ViewRect reached{static_cast<int>(std::floor(bounded(x0, scene.size.width))) - 1,
-                                   static_cast<int>(std::floor(bounded(y0, scene.size.height))) - 1,
-                                   static_cast<int>(std::ceil(bounded(x1, scene.size.width))) + 1,
-                                   static_cast<int>(std::ceil(bounded(y1, scene.size.height))) + 1};
+            if (within) {
+                reached = {static_cast<int>(std::floor(bounded(x0, scene.size.width))) - 1,
+                           static_cast<int>(std::floor(bounded(y0, scene.size.height))) - 1,
+                           static_cast<int>(std::ceil(bounded(x1, scene.size.width))) + 1,
+                           static_cast<int>(std::ceil(bounded(y1, scene.size.height))) + 1};
+            }
             scene.tiles.over(reached, [&](int tile) { marked[static_cast<std::size_t>(tile)] = true; });
         }
         std::vector<int> tiles;
@@ -374,9 +418,13 @@ Result<PerceivedView> ViewEngine::see(const Document& document, const Plan& plan
 
     ViewCounters counters;
     auto start = Clock::now();
-    const bool anew = !s.seen || scene.size != setting->scale.size || s.plain != setting->plain;
+    const bool anew = !s.seen || scene.size != setting->scale.size;
+    const bool switched = s.seen && s.plain != setting->plain;  // what a plain view skipped is out of date
     const bool newPicture = anew || !s.picture.same(document.scene.picture) || s.request.scale != request.scale;
     if (anew) {
+        scene = EngineScene{};
+        s.cut.reset();
+        s.rasters.clear();
         scene.size = setting->scale.size;
         scene.tiles = view::tileCount(scene.size);
         view = {};
@@ -391,15 +439,18 @@ Result<PerceivedView> ViewEngine::see(const Document& document, const Plan& plan
         const Radiance albedo = view::albedo(document, setting->scale);
         for (std::size_t c = 0; c < 3; ++c)
             scene.albedo[c] = planeOf(albedo, c, scene.tiles);
+        s.plainTiles.assign(static_cast<std::size_t>(scene.tiles.count()), {});
     }
-    bool all = newPicture;
+    bool all = newPicture || switched;
     if (!setting->plain) {
         const double step = view::bandStep(document, plan, request.scale, request.rung == Rung::dragging ? 2.0 : 1.0);
         view::SceneCut cut(document, plan, step);
-        const bool geometry = newPicture || !samePlan || !sameRequest || !s.cut || !s.cut->sameBut(cut) ||
+        const view::PupilShift shift = view::pupilShiftOf(document, plan, request);
+        const bool geometry = all || shift != s.shift || !samePlan || !sameRequest || !s.cut || !s.cut->sameBut(cut) ||
                               s.document.scene.scale != document.scene.scale || s.document.wearer != document.wearer ||
                               s.document.rig != document.rig;
         s.cut = std::move(cut);
+        s.shift = shift;
         s.surfaces(document, request, geometry);
         if (geometry) {
             s.geometry(document, plan, request, *setting);
@@ -407,7 +458,9 @@ Result<PerceivedView> ViewEngine::see(const Document& document, const Plan& plan
         }
         counters.geometry_ms += millisecondsSince(start);
         start = Clock::now();
-        s.light(document, program, *setting, geometry);
+        s.light(document, program, *setting,
+                newPicture || switched || s.document.rig.registration != document.rig.registration ||
+                    s.document.rig.projector != document.rig.projector);
         counters.light_ms += millisecondsSince(start);
         start = Clock::now();
         view::updateVisibility(scene, all, s.threads);
@@ -420,7 +473,7 @@ Result<PerceivedView> ViewEngine::see(const Document& document, const Plan& plan
 
     if (all) s.pending.assign(s.pending.size(), true);
     for (const EngineLight& light : scene.lights) {
-        for (std::size_t k = 0; k < scene.surfaces.size() && !all; ++k) {
+        for (std::size_t k = 0; k < scene.surfaces.size() && !all && !setting->plain; ++k) {
             const EngineLook& look = light.looks[k];
             if (!look.takesPart && !look.hides) continue;
             const auto mark = [&](ViewRect rect) {
@@ -459,14 +512,9 @@ Result<PerceivedView> ViewEngine::see(const Document& document, const Plan& plan
             const int tile = tiles[n];
             Box<ViewTile>& seen = view.tiles[static_cast<std::size_t>(tile)];
             if (setting->plain) {
-                ViewTile picture;
-                const ViewRect rect = scene.tiles.rect(tile);
-                for (std::size_t c = 0; c < 3; ++c) {
-                    for (int y = 0; y < kTileH; ++y)
-                        std::copy_n(scene.albedo[c].at(rect.x0, rect.y0 + y), kTileW,
-                                    picture.v.data() + c * view::kTilePixels + static_cast<std::size_t>(y * kTileW));
-                }
-                seen = Box<ViewTile>(picture);
+                Box<ViewTile>& plainTile = s.plainTiles[static_cast<std::size_t>(tile)];
+                if (!plainTile) plainTile = pictureTile(scene, tile);
+                seen = plainTile;
                 ++each[n].plain;
             } else {
                 seen = view::tileSeen(scene, tile, each[n]);
@@ -487,8 +535,11 @@ Result<PerceivedView> ViewEngine::see(const Document& document, const Plan& plan
         counters.conflicts += one.conflicts;
     }
     counters.tiles = scene.tiles.count();
-    counters.unchanged = counters.tiles - static_cast<int>(std::min(done, tiles.size()));
-    counters.lights = static_cast<int>(scene.lights.size());
+    counters.left = static_cast<int>(tiles.size() - std::min(done, tiles.size()));
+    counters.unchanged = counters.tiles - static_cast<int>(tiles.size());
+    counters.lights = setting->plain ? 0 : static_cast<int>(scene.lights.size());
+    for (const LightImage& image : program.images)
+        counters.darkLights += !setting->plain && image.blank() ? 1 : 0;
     counters.tiles_ms = millisecondsSince(start);
     view.rung = request.rung;
     view.complete = complete;

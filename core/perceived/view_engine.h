@@ -26,8 +26,9 @@ struct ViewCounters {
     int tiles = 0;      ///< of the view
     int computed = 0;   ///< worked out now; the others by reason:
     int unchanged = 0;  ///< no edit since the last frame reaches them
-    int plain = 0;      ///< nothing is blurred for anybody, or all of it lies beyond the lens's rim: the picture
-    int dark = 0;       ///< no light reaches them
+    int plain = 0;      ///< nothing is blurred for anybody: the picture
+    int left = 0;       ///< still to be worked out: the view was cancelled
+    int dark = 0;       ///< of those computed: no light reaches them
 
     int lights = 0;      ///< powers of the lens at which something is lit (a slot mid-sweep counts as two)
     int darkLights = 0;  ///< levels whose image is dark
