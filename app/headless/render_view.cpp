@@ -6,6 +6,7 @@
 
 #include "app/headless/render_error.h"
 #include "app/pictures_of.h"
+#include "app/reference_cache.h"
 #include "core/base/srgb.h"
 #include "core/perceived/reference.h"
 #include "ilf/version.h"
@@ -51,7 +52,7 @@ std::string spokenEye(const ViewRequest& request) { return request.eye == Eye::l
 
 Result<ReferencePicture> byRays(const Compiled& compiled, const ViewRequest& request, int samples) {
     return Reference::of(compiled.document, compiled.plan, compiled.program, request)
-        .and_then([&](const Reference& reference) { return reference.picture({samples, kSeed}); });
+        .and_then([&](const Reference& reference) { return ReferenceCache().picture(reference, {samples, kSeed}); });
 }
 
 Result<Rendered> seen(const Compiled& compiled, const Shot& shot, const ViewRequest& request,

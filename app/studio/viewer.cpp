@@ -45,6 +45,7 @@ void Viewer::run(std::stop_token stop) {
             seen_.refusal = Error{Fault::unsupported, std::string("The view could not be worked out: ") + e.what() +
                                                           ". Undo the last edit."};
             seen_.serial = posted->job.serial;
+            seen_.settled = true;  // nothing finer follows
             publish();
         }
     }
@@ -72,7 +73,11 @@ void Viewer::work(const Posted& posted, const std::stop_token& stop) {
     }
     const bool sameProgram = compiled_ == job.compiled;
     compiled_ = job.compiled;
-    if (!sameProgram) seen_.seams.reset();
+    if (!sameProgram) {  // whatever ends this job early: nothing of another program stays
+        seen_.seams.reset();
+        seen_.seam.reset();
+        cursor_.reset();
+    }
     seen_.serial = job.serial;
     seen_.scale = viewScale(compiled.document);
     seen_.settled = false;
@@ -110,7 +115,7 @@ void Viewer::work(const Posted& posted, const std::stop_token& stop) {
     }
     if (!job.cursor || !compiled.plan.sweeps()) {
         seen_.seam.reset();
-    } else if (!sameProgram || cursor_ != job.cursor) {
+    } else if (cursor_ != job.cursor) {
         seen_.seam = seamProfile(compiled, *job.cursor, kSeamReach * compiled.document.scene.size().width);
     }
     cursor_ = job.cursor;

@@ -12,7 +12,7 @@ points() {
             split(want, w, "|")
             if (section == "scene" && w[1] == "view" && scene == w[2] && what == "full frame" && threads == 2) kind = 0
             else if (section == "baseline" && w[1] == "view" && scene == w[2]) kind = 1
-            else if (section == "plane" && w[1] == "plane" && what == w[2]) kind = $3 == "engine" ? 0 : 1
+            else if (section == "plane" && w[1] == "plane" && what == w[2]) kind = $3 ~ /^engine/ ? 0 : 1
             else next
             printf "\"%s\" %s %s %d %d\n", $3 ($15 == "floor" ? " (floor)" : ""), $6, ($10 == "inf" ? 150 : $10), kind, $15 == "floor"
         }' "$table" > "$work/$1.dat"

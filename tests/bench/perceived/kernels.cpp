@@ -5,7 +5,7 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
-#include "core/perceived/disc_blur.h"
+#include "core/perceived/engine_shown.h"
 
 namespace ilf::bench {
 namespace {
@@ -94,6 +94,46 @@ void gatherAt(const cv::Mat& picture, const cv::Mat& radii, int x, int y, float*
         out[c] /= static_cast<float>(count);
 }
 
+/// One channel through the engine's own loops: averages, running sums, rims, interpolation.
+cv::Mat byTiles(const cv::Mat& picture, double radius, const view::RungRules& rules) {
+    const view::TileCount tiles = view::tileCount({picture.cols, picture.rows});
+    view::PaddedPlane values(tiles.columns * view::kTileW, tiles.rows * view::kTileH);
+    for (int y = 0; y < picture.rows; ++y)
+        std::copy_n(picture.ptr<float>(y), picture.cols, values.at(0, y));
+    view::Looks looks;
+    looks.fill({radius, 1.0, 0.5 * picture.cols, 0.5 * picture.rows});
+    const view::Shown shown = view::shown(looks, 1, tiles, rules);
+    const int coarse = shown.placing.coarse;
+    const view::TilePlane everywhere(tiles, 1.0F);
+    const std::array<const view::TilePlane*, 1> mask{&everywhere};
+    view::Workspace& work = view::workspace();
+    view::PaddedPlane averages;
+    if (coarse > 1) {
+        const view::Averaging& kernel = view::averaging(coarse);
+        averages = view::PaddedPlane(tiles.columns * view::kTileW / coarse, tiles.rows * view::kTileH / coarse);
+        for (int tile = 0; tile < tiles.count(); ++tile) {
+            const view::ViewRect rect = tiles.rect(tile), window = rect.grown(kernel.lead);
+            view::maskOver(work, window, mask);
+            view::averageTile(averages.at(rect.x0 / coarse, rect.y0 / coarse), averages.stride(), coarse,
+                              work.mask.data(), work.maskStride, values.at(window.x0, window.y0), values.stride(),
+                              kernel);
+        }
+    }
+    cv::Mat out(picture.rows, picture.cols, CV_32F);
+    std::array<float, view::kTilePixels> seen;
+    for (int tile = 0; tile < tiles.count(); ++tile) {
+        seen.fill(0.0F);
+        const view::ViewRect part = shown.samples(tiles, tile), rect = tiles.rect(tile);
+        view::sumSource(work, shown, part, {{}, false, coarse > 1 ? &averages : &values});
+        view::addSummed(seen.data(), work, shown, shown.kernel(0, 1), tiles, tile, part, nullptr, 1.0F);
+        for (int y = 0; y < std::min(view::kTileH, picture.rows - rect.y0); ++y) {
+            std::copy_n(seen.data() + y * view::kTileW, std::min(view::kTileW, picture.cols - rect.x0),
+                        out.ptr<float>(rect.y0 + y) + rect.x0);
+        }
+    }
+    return out;
+}
+
 }  // namespace
 
 const std::vector<Blur>& libraryBlurs() {
@@ -101,14 +141,13 @@ const std::vector<Blur>& libraryBlurs() {
     return all;
 }
 
-cv::Mat engineBlur(const cv::Mat& picture, double radius) {
-    view::Block block(picture.cols, picture.rows, picture.channels());
-    for (int y = 0; y < picture.rows; ++y)
-        std::copy_n(picture.ptr<float>(y), block.stride(), block.row(y));
-    view::Block blurred = view::discBlurred(block, radius);
-    const int reach = view::discReach(radius);
-    const cv::Mat whole(blurred.height, blurred.width, picture.type(), blurred.values.data());
-    return whole(cv::Rect(reach, reach, picture.cols, picture.rows)).clone();
+cv::Mat engineExact(const cv::Mat& picture, double radius) {
+    view::RungRules exact = view::rulesOf(Rung::idle);
+    exact.half_px = exact.quarter_px = 1e9;
+    return byTiles(picture, radius, exact);
+}
+cv::Mat engineAtRest(const cv::Mat& picture, double radius) {
+    return byTiles(picture, radius, view::rulesOf(Rung::rest));
 }
 
 cv::Mat gatheredRows(const cv::Mat& picture, const cv::Mat& radii, int rows) {
@@ -133,7 +172,7 @@ cv::Mat discKernel(double radius) {
     static std::map<double, cv::Mat> kept;
     cv::Mat& kernel = kept[radius];
     if (!kernel.empty()) return kernel;
-    const int reach = view::discReach(radius);
+    const int reach = static_cast<int>(std::ceil(radius + 1.0));
     kernel = cv::Mat(2 * reach + 1, 2 * reach + 1, CV_64F);
     for (int dy = 0; dy <= reach; ++dy) {
         for (int dx = 0; dx <= reach; ++dx) {

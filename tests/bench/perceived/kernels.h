@@ -17,8 +17,9 @@ struct Blur {
 /// filter2D with the disc itself, GaussianBlur and blur with the disc's variance, a product of spectra.
 const std::vector<Blur>& libraryBlurs();
 
-/// The engine's own disc kernel. To be replaced by whatever the engine blurs with.
-cv::Mat engineBlur(const cv::Mat& picture, double radius);
+/// The engine's own way of one channel, tile by tile: exact rims, or (as at rest) over averages where discs are large.
+cv::Mat engineExact(const cv::Mat& picture, double radius);
+cv::Mat engineAtRest(const cv::Mat& picture, double radius);
 
 /// Mean over the pixels whose centres lie within the pixel's own radius, for `rows` rows from the middle: the loop that
 /// comes to mind first. `radii` has one channel.

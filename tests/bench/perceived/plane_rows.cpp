@@ -49,7 +49,7 @@ void addPlaneRows(Table& table, const Machine& machine, const Patience& patience
     std::vector<Picture2> pictures{{"text", plane(kSize, Texture::text, 12345)},
                                    {"natural", plane(kSize, Texture::natural, 12346)},
                                    {"lights", plane(kSize, Texture::lights, 12347)}};
-    std::vector<Blur> all{{"engine", engineBlur}};
+    std::vector<Blur> all{{"engine exact", engineExact}, {"engine at rest", engineAtRest}};
     all.insert(all.end(), libraryBlurs().begin(), libraryBlurs().end());
     const double pixels = static_cast<double>(kSize.width) * kSize.height;
     for (const double radius : {3.0, 5.0, 8.0, 12.0, 20.0, 40.0}) {

@@ -174,7 +174,7 @@ private:
                  number(worst) + " ms, " + std::to_string(computed) + " tiles", worst <= 0.02 && computed == 0);
     }
     void plane() {
-        const Row* row = table_.find("plane", "1 plane", "engine", "r = 20", 1);
+        const Row* row = table_.find("plane", "1 plane", "engine at rest", "r = 20", 1);
         if (!row) return;
         line("one plane, r = 20, against filter2D", ">= 15x at >= 58 dB",
              number(row->ratio) + "x, " + number(row->errors.psnr, "%.1f") + " dB (" + number(row->times.p50) + " ms)",
