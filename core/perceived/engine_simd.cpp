@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 #include <utility>
 
 // Highway compiles this file once for each kind of processor; the rest of the program includes none of it.
@@ -27,7 +28,34 @@ void prefixSumsHere(float* HWY_RESTRICT sums, int stride, int width, int rows, c
                     int maskStride, const float* HWY_RESTRICT values, int valueStride) {
     const Floats d;
     const int n = static_cast<int>(hn::Lanes(d));
-    for (int x = 0; x < width; x += n) {
+    // Four columns of vectors at once: each sum waits for the one above it.
+    int x = 0;
+    for (; x + 3 * n < width; x += 4 * n) {
+        auto a = hn::Zero(d), b = a, c = a, e = a;
+        for (float* zero = sums + x; zero < sums + x + 4 * n; zero += n)
+            hn::StoreU(a, d, zero);
+        for (int y = 0; y < rows; ++y) {
+            const float* HWY_RESTRICT from = values + y * valueStride + x;
+            float* HWY_RESTRICT to = sums + (y + 1) * stride + x;
+            if (mask) {
+                const float* HWY_RESTRICT covers = mask + y * maskStride + x;
+                a = hn::MulAdd(hn::LoadU(d, covers), hn::LoadU(d, from), a);
+                b = hn::MulAdd(hn::LoadU(d, covers + n), hn::LoadU(d, from + n), b);
+                c = hn::MulAdd(hn::LoadU(d, covers + 2 * n), hn::LoadU(d, from + 2 * n), c);
+                e = hn::MulAdd(hn::LoadU(d, covers + 3 * n), hn::LoadU(d, from + 3 * n), e);
+            } else {
+                a = hn::Add(a, hn::LoadU(d, from));
+                b = hn::Add(b, hn::LoadU(d, from + n));
+                c = hn::Add(c, hn::LoadU(d, from + 2 * n));
+                e = hn::Add(e, hn::LoadU(d, from + 3 * n));
+            }
+            hn::StoreU(a, d, to);
+            hn::StoreU(b, d, to + n);
+            hn::StoreU(c, d, to + 2 * n);
+            hn::StoreU(e, d, to + 3 * n);
+        }
+    }
+    for (; x < width; x += n) {
         auto sum = hn::Zero(d);
         hn::StoreU(sum, d, sums + x);
         for (int y = 0; y < rows; ++y) {
@@ -98,12 +126,21 @@ void blurBlockHere(float* HWY_RESTRICT block, int blockStride, int width, int he
                    int sumStride, const EdgeKernel& kernel) {
     const Floats d;
     const int n = static_cast<int>(hn::Lanes(d));
+    // As many vectors side by side as leave room for their sums in registers: the more, the fewer times a weight is
+    // read.
+    constexpr std::size_t kMost = hn::MaxLanes(d) >= 16 ? 5 : 2;
+    const auto rows = [&](auto vectors, int x, int y) {
+        blurRows<vectors()>(block + y * blockStride + x, blockStride, sums + y * sumStride + x, sumStride, kernel);
+    };
     for (int y = 0; y < height; y += 4) {
         int x = 0;
+        for (; kMost == 5 && x + 4 * n < width; x += 5 * n)
+            rows(std::integral_constant<std::size_t, kMost>{}, x, y);
+        for (; kMost == 5 && x + 2 * n < width; x += 3 * n)
+            rows(std::integral_constant < std::size_t, kMost == 5 ? 3 : 2 > {}, x, y);
         for (; x + n < width; x += 2 * n)
-            blurRows<2>(block + y * blockStride + x, blockStride, sums + y * sumStride + x, sumStride, kernel);
-        if (x < width)
-            blurRows<1>(block + y * blockStride + x, blockStride, sums + y * sumStride + x, sumStride, kernel);
+            rows(std::integral_constant<std::size_t, 2>{}, x, y);
+        if (x < width) rows(std::integral_constant<std::size_t, 1>{}, x, y);
     }
 }
 
@@ -194,7 +231,8 @@ void averageTileHere(float* HWY_RESTRICT out, int outStride, int coarse, const f
     const int rows = kTileH + 2 * lead;
     constexpr int kStride = kTileW + 16 + kOverrun;  // 70 pixels are read, and whole vectors
     HWY_ALIGN std::array<float, kStride*(kTileH + 6)> products;
-    HWY_ALIGN std::array<float, kStride> line;
+    // All rows down before any is read across: a load that straddles fresh stores has to wait for them.
+    HWY_ALIGN std::array<float, kStride*(kTileH / 2)> lines;
     for (int y = 0; y < rows; ++y) {
         float* HWY_RESTRICT to = products.data() + y * kStride;
         const float* HWY_RESTRICT covers = mask + y * maskStride;
@@ -212,8 +250,11 @@ void averageTileHere(float* HWY_RESTRICT out, int outStride, int coarse, const f
                 sum = hn::MulAdd(hn::Set(d, averaging.taps[static_cast<std::size_t>(t)]),
                                  hn::LoadU(d, from + t * kStride + x), sum);
             }
-            hn::StoreU(sum, d, line.data() + x);
+            hn::StoreU(sum, d, lines.data() + y * kStride + x);
         }
+    }
+    for (int y = 0; y < kTileH / coarse; ++y) {
+        const float* HWY_RESTRICT line = lines.data() + y * kStride;
         float* HWY_RESTRICT to = out + y * outStride;
         for (int x = 0; x < kTileW / coarse; x += n) {
             auto sum = hn::Zero(d);
@@ -221,9 +262,9 @@ void averageTileHere(float* HWY_RESTRICT out, int outStride, int coarse, const f
             for (int t = 0; t < taps; t += coarse) {
                 auto a = hn::Zero(d), b = a, c = a, e = a;
                 if (coarse == 2) {
-                    hn::LoadInterleaved2(d, line.data() + 2 * x + t, a, b);
+                    hn::LoadInterleaved2(d, line + 2 * x + t, a, b);
                 } else {
-                    hn::LoadInterleaved4(d, line.data() + 4 * x + t, a, b, c, e);
+                    hn::LoadInterleaved4(d, line + 4 * x + t, a, b, c, e);
                 }
                 const auto weight = [&](int i) {
                     return hn::Set(d, t + i < taps ? averaging.taps[static_cast<std::size_t>(t + i)] : 0.0F);

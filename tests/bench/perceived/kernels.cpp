@@ -94,44 +94,60 @@ void gatherAt(const cv::Mat& picture, const cv::Mat& radii, int x, int y, float*
         out[c] /= static_cast<float>(count);
 }
 
+/// What the engine keeps between frames: kernels and maps, and planes to work in.
+struct Kept {
+    view::TileCount tiles;
+    view::Shown shown;
+    view::TilePlane everywhere;
+    view::PaddedPlane values, averages;
+    cv::Mat out;
+};
+
 /// One channel through the engine's own loops: averages, running sums, rims, interpolation.
 cv::Mat byTiles(const cv::Mat& picture, double radius, const view::RungRules& rules) {
-    const view::TileCount tiles = view::tileCount({picture.cols, picture.rows});
-    view::PaddedPlane values(tiles.columns * view::kTileW, tiles.rows * view::kTileH);
+    static std::map<std::pair<double, double>, Kept> all;
+    const auto [found, fresh] = all.try_emplace({radius, rules.half_px});
+    Kept& kept = found->second;
+    if (fresh) {
+        kept.tiles = view::tileCount({picture.cols, picture.rows});
+        view::Looks looks;
+        looks.fill({radius, 1.0, 0.5 * picture.cols, 0.5 * picture.rows});
+        kept.shown = view::shown(looks, 1, kept.tiles, rules);
+        kept.everywhere = view::TilePlane(kept.tiles, 1.0F);
+        const int c = kept.shown.placing.coarse, width = kept.tiles.columns * view::kTileW,
+                  height = kept.tiles.rows * view::kTileH;
+        kept.values = view::PaddedPlane(width, height);
+        if (c > 1) kept.averages = view::PaddedPlane(width / c, height / c);
+        kept.out = cv::Mat(picture.rows, picture.cols, CV_32F);
+    }
     for (int y = 0; y < picture.rows; ++y)
-        std::copy_n(picture.ptr<float>(y), picture.cols, values.at(0, y));
-    view::Looks looks;
-    looks.fill({radius, 1.0, 0.5 * picture.cols, 0.5 * picture.rows});
-    const view::Shown shown = view::shown(looks, 1, tiles, rules);
-    const int coarse = shown.placing.coarse;
-    const view::TilePlane everywhere(tiles, 1.0F);
-    const std::array<const view::TilePlane*, 1> mask{&everywhere};
+        std::copy_n(picture.ptr<float>(y), picture.cols, kept.values.at(0, y));
+    const view::TileCount tiles = kept.tiles;
+    const int coarse = kept.shown.placing.coarse;
     view::Workspace& work = view::workspace();
-    view::PaddedPlane averages;
+    const std::array<const view::TilePlane*, 1> mask{&kept.everywhere};
     if (coarse > 1) {
         const view::Averaging& kernel = view::averaging(coarse);
-        averages = view::PaddedPlane(tiles.columns * view::kTileW / coarse, tiles.rows * view::kTileH / coarse);
         for (int tile = 0; tile < tiles.count(); ++tile) {
             const view::ViewRect rect = tiles.rect(tile), window = rect.grown(kernel.lead);
             view::maskOver(work, window, mask);
-            view::averageTile(averages.at(rect.x0 / coarse, rect.y0 / coarse), averages.stride(), coarse,
-                              work.mask.data(), work.maskStride, values.at(window.x0, window.y0), values.stride(),
-                              kernel);
+            view::averageTile(kept.averages.at(rect.x0 / coarse, rect.y0 / coarse), kept.averages.stride(), coarse,
+                              work.mask.data(), work.maskStride, kept.values.at(window.x0, window.y0),
+                              kept.values.stride(), kernel);
         }
     }
-    cv::Mat out(picture.rows, picture.cols, CV_32F);
     std::array<float, view::kTilePixels> seen;
     for (int tile = 0; tile < tiles.count(); ++tile) {
         seen.fill(0.0F);
-        const view::ViewRect part = shown.samples(tiles, tile), rect = tiles.rect(tile);
-        view::sumSource(work, shown, part, {{}, false, coarse > 1 ? &averages : &values});
-        view::addSummed(seen.data(), work, shown, shown.kernel(0, 1), tiles, tile, part, nullptr, 1.0F);
+        const view::ViewRect part = kept.shown.samples(tiles, tile), rect = tiles.rect(tile);
+        view::sumSource(work, kept.shown, part, {{}, false, coarse > 1 ? &kept.averages : &kept.values});
+        view::addSummed(seen.data(), work, kept.shown, kept.shown.kernel(0, 1), tiles, tile, part, nullptr, 1.0F);
         for (int y = 0; y < std::min(view::kTileH, picture.rows - rect.y0); ++y) {
             std::copy_n(seen.data() + y * view::kTileW, std::min(view::kTileW, picture.cols - rect.x0),
-                        out.ptr<float>(rect.y0 + y) + rect.x0);
+                        kept.out.ptr<float>(rect.y0 + y) + rect.x0);
         }
     }
-    return out;
+    return kept.out;
 }
 
 }  // namespace
