@@ -86,63 +86,62 @@ Played next(const Played& before, const Document& document) {
 }  // namespace
 
 TEST_CASE("view engine: after random edits the view is bit for bit that of a fresh engine, on one thread or two") {
-    for (const bool sloped : {false, true}) {
-        law("identical after edits", [&] {
-            ViewEngine one(1), two(2);
-            ViewRequest request;
-            request.rung = *rc::gen::element(Rung::dragging, Rung::rest, Rung::idle);
-            request.scale = *rc::gen::element(1.0, 1.0, 0.67);
-            request.lensField = *rc::gen::arbitrary<bool>();
-            request.chromatic = *rc::gen::inRange(0, 4) == 0;
-            request.gaze = *rc::gen::element(Gaze::ahead, Gaze::fixed, Gaze::follows);
-            request.gazeAt = {1.0 * *rc::gen::inRange(0, 300), 1.0 * *rc::gen::inRange(0, 170)};
-            Document first = desk(sloped);
-            first.rig.primaries = std::array<Metre, 3>{623e-9_m, 530e-9_m, 460e-9_m};
-            if (*rc::gen::inRange(0, 4) == 0) first.rig.room.ambient_lx = 20.0;
-            Played now = played(first);
-            look(one, now, request);
-            look(two, now, request);
-            const int edits = *rc::gen::inRange(1, 4);
-            for (int i = 0; i < edits; ++i) {
-                Document d = now.document;
-                const auto region = static_cast<std::size_t>(*rc::gen::inRange(0, 3));
-                switch (*rc::gen::inRange(0, 7)) {
-                case 0: {
-                    Region changed = *d.regions[region];
-                    changed.distance = ConstantDistance{Metre::fromSi(0.3 + 0.1 * *rc::gen::inRange(0, 12)), {}};
-                    d.regions[region] = Box<Region>(changed);
-                    break;
-                }
-                case 1: {
-                    Region changed = *d.regions[region];
-                    changed.look = *rc::gen::element(Look::focus, Look::blur, Look::neutral);
-                    d.regions[region] = Box<Region>(changed);
-                    break;
-                }
-                case 2:
-                    request.eye = request.eye == Eye::left ? Eye::right : Eye::left;
-                    break;
-                default:
-                    dab(d, region, *rc::gen::inRange(0, 300), *rc::gen::inRange(0, 170), *rc::gen::inRange(3, 30),
-                        *rc::gen::arbitrary<bool>());
-                }
-                if (!plan(planInput(d))) continue;
-                now = next(now, d);
-                if (*rc::gen::arbitrary<bool>()) {
-                    int tilesLeft = *rc::gen::inRange(0, 3);
-                    const auto cut =
-                        *one.see(now.document, now.plan, now.program, request, [&] { return tilesLeft-- <= 0; });
-                    const ViewCounters& c = cut.counters;
-                    RC_ASSERT(c.computed + c.unchanged + c.plain + c.left == c.tiles);
-                }
-                const auto a = look(one, now, request), b = look(two, now, request), fresh = afresh(now, request);
-                RC_ASSERT(identical(a, fresh));
-                RC_ASSERT(identical(b, fresh));
-                const ViewCounters& c = a.counters;
+    law("identical after edits", [&] {
+        const bool sloped = *rc::gen::arbitrary<bool>();
+        ViewEngine one(1), two(2);
+        ViewRequest request;
+        request.rung = *rc::gen::element(Rung::dragging, Rung::rest, Rung::idle);
+        request.scale = *rc::gen::element(1.0, 1.0, 0.67);
+        request.lensField = *rc::gen::arbitrary<bool>();
+        request.chromatic = *rc::gen::inRange(0, 4) == 0;
+        request.gaze = *rc::gen::element(Gaze::ahead, Gaze::fixed, Gaze::follows);
+        request.gazeAt = {1.0 * *rc::gen::inRange(0, 300), 1.0 * *rc::gen::inRange(0, 170)};
+        Document first = desk(sloped);
+        first.rig.primaries = std::array<Metre, 3>{623e-9_m, 530e-9_m, 460e-9_m};
+        if (*rc::gen::inRange(0, 4) == 0) first.rig.room.ambient_lx = 20.0;
+        Played now = played(first);
+        look(one, now, request);
+        look(two, now, request);
+        const int edits = *rc::gen::inRange(1, 4);
+        for (int i = 0; i < edits; ++i) {
+            Document d = now.document;
+            const auto region = static_cast<std::size_t>(*rc::gen::inRange(0, 3));
+            switch (*rc::gen::inRange(0, 7)) {
+            case 0: {
+                Region changed = *d.regions[region];
+                changed.distance = ConstantDistance{Metre::fromSi(0.3 + 0.1 * *rc::gen::inRange(0, 12)), {}};
+                d.regions[region] = Box<Region>(changed);
+                break;
+            }
+            case 1: {
+                Region changed = *d.regions[region];
+                changed.look = *rc::gen::element(Look::focus, Look::blur, Look::neutral);
+                d.regions[region] = Box<Region>(changed);
+                break;
+            }
+            case 2:
+                request.eye = request.eye == Eye::left ? Eye::right : Eye::left;
+                break;
+            default:
+                dab(d, region, *rc::gen::inRange(0, 300), *rc::gen::inRange(0, 170), *rc::gen::inRange(3, 30),
+                    *rc::gen::arbitrary<bool>());
+            }
+            if (!plan(planInput(d))) continue;
+            now = next(now, d);
+            if (*rc::gen::arbitrary<bool>()) {
+                int tilesLeft = *rc::gen::inRange(0, 3);
+                const auto cut =
+                    *one.see(now.document, now.plan, now.program, request, [&] { return tilesLeft-- <= 0; });
+                const ViewCounters& c = cut.counters;
                 RC_ASSERT(c.computed + c.unchanged + c.plain + c.left == c.tiles);
             }
-        });
-    }
+            const auto a = look(one, now, request), b = look(two, now, request), fresh = afresh(now, request);
+            RC_ASSERT(identical(a, fresh));
+            RC_ASSERT(identical(b, fresh));
+            const ViewCounters& c = a.counters;
+            RC_ASSERT(c.computed + c.unchanged + c.plain + c.left == c.tiles);
+        }
+    });
 }
 
 TEST_CASE("view engine: nothing changed, nothing worked out") {
