@@ -4,12 +4,12 @@
 #include <cstring>
 #include <fstream>
 
-#include "perceived/baseline_rows.h"
-#include "perceived/calibration.h"
-#include "perceived/engine_rows.h"
-#include "perceived/plane_rows.h"
-#include "perceived/report.h"
-#include "perceived/scaling_rows.h"
+#include "tests/bench/perceived/baseline_rows.h"
+#include "tests/bench/perceived/calibration.h"
+#include "tests/bench/perceived/engine_rows.h"
+#include "tests/bench/perceived/plane_rows.h"
+#include "tests/bench/perceived/report.h"
+#include "tests/bench/perceived/scaling_rows.h"
 
 namespace {
 

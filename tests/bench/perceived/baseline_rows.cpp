@@ -1,10 +1,10 @@
-#include "baseline_rows.h"
+#include "tests/bench/perceived/baseline_rows.h"
 
 #include <opencv2/imgproc.hpp>
 
 #include "core/perceived/perceived.h"
-#include "kernels.h"
-#include "optics_of.h"
+#include "tests/bench/perceived/kernels.h"
+#include "tests/bench/perceived/optics_of.h"
 
 namespace ilf::bench {
 namespace {

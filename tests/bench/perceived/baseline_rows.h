@@ -1,9 +1,9 @@
 // What somebody would write for a whole view with a library at hand, on the same scenes.
 #pragma once
 
-#include "calibration.h"
-#include "scenes.h"
-#include "truth.h"
+#include "tests/bench/perceived/calibration.h"
+#include "tests/bench/perceived/scenes.h"
+#include "tests/bench/perceived/truth.h"
 
 namespace ilf::bench {
 

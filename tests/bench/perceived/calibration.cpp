@@ -1,4 +1,4 @@
-#include "calibration.h"
+#include "tests/bench/perceived/calibration.h"
 
 #include <array>
 #include <cstddef>

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "row.h"
-#include "timing.h"
+#include "tests/bench/perceived/row.h"
+#include "tests/bench/perceived/timing.h"
 
 namespace ilf::bench {
 

@@ -1,9 +1,9 @@
-#include "engine_rows.h"
+#include "tests/bench/perceived/engine_rows.h"
 
 #include <algorithm>
 
 #include "core/perceived/view_engine.h"
-#include "optics_of.h"
+#include "tests/bench/perceived/optics_of.h"
 
 namespace ilf::bench {
 namespace {

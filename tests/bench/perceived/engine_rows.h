@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "calibration.h"
-#include "scenes.h"
-#include "truth.h"
+#include "tests/bench/perceived/calibration.h"
+#include "tests/bench/perceived/scenes.h"
+#include "tests/bench/perceived/truth.h"
 
 namespace ilf::bench {
 

@@ -1,4 +1,4 @@
-#include "kernels.h"
+#include "tests/bench/perceived/kernels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "optics_of.h"
+#include "tests/bench/perceived/optics_of.h"
 
 #include <algorithm>
 #include <cmath>

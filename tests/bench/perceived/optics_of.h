@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scenes.h"
+#include "tests/bench/perceived/scenes.h"
 
 namespace ilf::bench {
 

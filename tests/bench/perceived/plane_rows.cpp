@@ -1,10 +1,10 @@
-#include "plane_rows.h"
+#include "tests/bench/perceived/plane_rows.h"
 
 #include <cmath>
 
 #include "core/base/parallel.h"
-#include "kernels.h"
-#include "textures.h"
+#include "tests/bench/perceived/kernels.h"
+#include "tests/bench/perceived/textures.h"
 
 namespace ilf::bench {
 namespace {

@@ -1,7 +1,7 @@
 // One plane of 1024 x 768 blurred by a disc: every way of doing it, beside the exact disc.
 #pragma once
 
-#include "calibration.h"
+#include "tests/bench/perceived/calibration.h"
 
 namespace ilf::bench {
 

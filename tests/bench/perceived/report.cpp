@@ -1,4 +1,4 @@
-#include "report.h"
+#include "tests/bench/perceived/report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <fstream>
 #include <limits>
 
-#include "engine_rows.h"
-#include "timing.h"
+#include "tests/bench/perceived/engine_rows.h"
+#include "tests/bench/perceived/timing.h"
 
 namespace ilf::bench {
 namespace {

@@ -1,7 +1,7 @@
 // The figures asked for beside what was measured, as text for the README.
 #pragma once
 
-#include "row.h"
+#include "tests/bench/perceived/row.h"
 
 namespace ilf::bench {
 

@@ -1,4 +1,4 @@
-#include "row.h"
+#include "tests/bench/perceived/row.h"
 
 #include <algorithm>
 #include <cmath>

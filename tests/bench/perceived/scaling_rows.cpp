@@ -1,9 +1,9 @@
-#include "scaling_rows.h"
+#include "tests/bench/perceived/scaling_rows.h"
 
 #include <cmath>
 
-#include "engine_rows.h"
-#include "scenes.h"
+#include "tests/bench/perceived/engine_rows.h"
+#include "tests/bench/perceived/scenes.h"
 
 namespace ilf::bench {
 namespace {

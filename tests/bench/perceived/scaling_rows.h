@@ -1,7 +1,7 @@
 // How the time of a full frame grows: with slots, radius, regions and pixels.
 #pragma once
 
-#include "calibration.h"
+#include "tests/bench/perceived/calibration.h"
 
 namespace ilf::bench {
 

@@ -1,4 +1,4 @@
-#include "scenes.h"
+#include "tests/bench/perceived/scenes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "core/document/edit.h"
 #include "core/document/shape.h"
-#include "textures.h"
+#include "tests/bench/perceived/textures.h"
 
 namespace ilf::bench {
 namespace {

@@ -1,4 +1,4 @@
-#include "textures.h"
+#include "tests/bench/perceived/textures.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "timing.h"
+#include "tests/bench/perceived/timing.h"
 
 #include <sys/resource.h>
 #include <unistd.h>

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <functional>
 
-#include "row.h"
+#include "tests/bench/perceived/row.h"
 
 namespace ilf::bench {
 

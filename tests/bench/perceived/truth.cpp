@@ -1,4 +1,4 @@
-#include "truth.h"
+#include "tests/bench/perceived/truth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <span>
 
 #include "app/reference_cache.h"
-#include "optics_of.h"
+#include "tests/bench/perceived/optics_of.h"
 
 namespace ilf::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "row.h"
-#include "scenes.h"
+#include "tests/bench/perceived/row.h"
+#include "tests/bench/perceived/scenes.h"
 
 namespace ilf::bench {
 
