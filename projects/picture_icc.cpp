@@ -7,32 +7,30 @@
 #include <utility>
 #include <vector>
 
+#include "projects/big_endian.h"
+
 namespace ilf::projects {
 namespace {
-
-std::string big(std::uint32_t value) {
-    std::string bytes(4, '\0');
-    for (std::size_t i = 0; i < 4; ++i)
-        bytes[i] = static_cast<char>(value >> (24 - 8 * i));
-    return bytes;
-}
 
 /// s15Fixed16Number.
 std::string fixed(std::initializer_list<double> values) {
     std::string bytes;
     for (const double value : values)
-        bytes += big(static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(value * 65536.0))));
+        bytes += bigEndian(static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(value * 65536.0))));
     return bytes;
 }
 
-std::string tag(std::string_view type, const std::string& content) { return std::string(type) + big(0) + content; }
+std::string tag(std::string_view type, const std::string& content) {
+    return std::string(type) + bigEndian(0) + content;
+}
 
 /// multiLocalizedUnicodeType with one text, in ASCII.
 std::string text(std::string_view ascii) {
     std::string utf16;
     for (const char c : ascii)
         utf16 += {'\0', c};
-    return tag("mluc", big(1) + big(12) + "enUS" + big(static_cast<std::uint32_t>(utf16.size())) + big(28) + utf16);
+    return tag("mluc", bigEndian(1) + bigEndian(12) + "enUS" + bigEndian(static_cast<std::uint32_t>(utf16.size())) +
+                           bigEndian(28) + utf16);
 }
 
 }  // namespace
@@ -57,19 +55,20 @@ std::string srgbProfile() {
         {"bTRC", curve},
     };
     const auto first = static_cast<std::uint32_t>(128 + 4 + 12 * tags.size());
-    std::string table = big(static_cast<std::uint32_t>(tags.size())), data;
+    std::string table = bigEndian(static_cast<std::uint32_t>(tags.size())), data;
     for (const auto& [name, content] : tags) {
-        table += std::string(name) + big(first + static_cast<std::uint32_t>(data.size())) +
-                 big(static_cast<std::uint32_t>(content.size()));
+        table += std::string(name) + bigEndian(first + static_cast<std::uint32_t>(data.size())) +
+                 bigEndian(static_cast<std::uint32_t>(content.size()));
         data += content;
         data.resize((data.size() + 3) / 4 * 4);
     }
-    std::string header = big(0) + big(0) + big(0x04300000) + "mntrRGB XYZ ";
-    header += std::string("\x07\xea\0\1\0\1\0\0\0\0\0\0", 12) + "acsp" + big(0) + big(0) + big(0) + big(0);
-    header += big(0) + big(0) + big(0) + d50;
+    std::string header = bigEndian(0) + bigEndian(0) + bigEndian(0x04300000) + "mntrRGB XYZ ";
+    header += std::string("\x07\xea\0\1\0\1\0\0\0\0\0\0", 12) + "acsp" + bigEndian(0) + bigEndian(0) + bigEndian(0) +
+              bigEndian(0);
+    header += bigEndian(0) + bigEndian(0) + bigEndian(0) + d50;
     header.resize(128);
     std::string profile = header + table + data;
-    profile.replace(0, 4, big(static_cast<std::uint32_t>(profile.size())));
+    profile.replace(0, 4, bigEndian(static_cast<std::uint32_t>(profile.size())));
     return profile;
 }
 

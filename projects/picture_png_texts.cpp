@@ -4,15 +4,10 @@
 #include <cassert>
 #include <cstdint>
 
+#include "projects/big_endian.h"
+
 namespace ilf::projects {
 namespace {
-
-std::string big(std::uint32_t value) {
-    std::string bytes(4, '\0');
-    for (std::size_t i = 0; i < 4; ++i)
-        bytes[i] = static_cast<char>(value >> (24 - 8 * i));
-    return bytes;
-}
 
 /// CRC-32 as PNG has it (ISO 3309), bit by bit: texts are short.
 std::uint32_t crc(const std::string& bytes) {
@@ -26,7 +21,7 @@ std::uint32_t crc(const std::string& bytes) {
 }
 
 std::string chunk(const std::string& type, const std::string& content) {
-    return big(static_cast<std::uint32_t>(content.size())) + type + content + big(crc(type + content));
+    return bigEndian(static_cast<std::uint32_t>(content.size())) + type + content + bigEndian(crc(type + content));
 }
 
 bool isAscii(const std::string& text) {

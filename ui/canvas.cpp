@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/document/region_at.h"
 #include "ui/new_region.h"
 #include "ui/widgets.h"
 
@@ -110,15 +111,6 @@ ImU32 frameColour(const View& view) {
 }
 
 }  // namespace
-
-const Region* regionAt(const Document& document, Point<CameraFrame> at) {
-    for (const Region* region : activeRegions(document)) {
-        if (region->mask.at(static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y))) >= 128) {
-            return region;
-        }
-    }
-    return nullptr;
-}
 
 Metre markDistance(const Panel& p) {
     if (const RegionPlan* planned = p.planOf(p.state.selected)) return planned->nearest;

@@ -10,8 +10,6 @@
 
 namespace ilf::ui {
 
-/// The topmost region that takes part and covers the pixel at least half; nullptr over the background.
-const Region* regionAt(const Document& document, Point<CameraFrame> at);
 /// The distance at which the optical centres are drawn: of the selected region, or of what the plan focuses on.
 Metre markDistance(const Panel& p);
 /// A distance whose every point is `ratio` times as far; nothing for a depth map, which is measured.

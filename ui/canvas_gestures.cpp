@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/document/region_at.h"
 #include "ui/canvas.h"
 #include "ui/new_region.h"
 

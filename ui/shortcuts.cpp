@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <random>
 
+#include "core/document/region_at.h"
 #include "ui/canvas.h"
 #include "ui/keys.h"
 #include "ui/new_region.h"

@@ -1,6 +1,7 @@
 // The line at the bottom: what is under the cursor, what took how long, when it was saved.
 #include <cmath>
 
+#include "core/document/region_at.h"
 #include "ui/canvas.h"
 #include "ui/widgets.h"
 

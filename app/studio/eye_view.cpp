@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "core/base/elapsed.h"
+
 namespace ilf::app {
 
 ViewRequest askedOf(const Compiled& compiled, const ViewRequest& seeing, Eye eye) {
@@ -26,15 +28,14 @@ Result<bool> EyeView::see(Sight& sight, const Compiled& compiled, const ViewRequ
 }
 
 Result<bool> EyeView::look(const Compiled& compiled, const ViewRequest& request, const Cancelled& cancelled) {
-    using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
+    const auto start = std::chrono::steady_clock::now();
     Sight& sight = request.rung == Rung::dragging ? gesture_ : still_;
     const auto done = see(sight, compiled, request, cancelled);
     if (!done || !*done) return done;
     shown_ = std::make_shared<const ScreenView>(sight.codes);
     reached_ = request.rung;
     counters_ = sight.seen.counters;
-    took_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    took_ms_ = millisecondsSince(start);
     return true;
 }
 

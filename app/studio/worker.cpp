@@ -3,15 +3,9 @@
 #include <exception>
 #include <string>
 
+#include "core/base/elapsed.h"
+
 namespace ilf::app {
-namespace {
-
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-}  // namespace
-
 Worker::Worker(devices::SimulatedLens lens, std::function<void()> onNews)
     : onNews_(std::move(onNews)), planner_(lens), viewer_(onNews_), thread_([this](std::stop_token s) { run(s); }) {}
 

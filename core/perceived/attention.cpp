@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/document/region_at.h"
 #include "core/optics/gaze.h"
 
 namespace ilf::view {
@@ -41,13 +42,8 @@ Dioptre seenDefocus(const EyeOptics& eye, const Attention& attention, Metre dist
 
 PupilShift pupilShiftOf(const Document& document, const Plan& plan, const ViewRequest& request) {
     if (request.gaze != Gaze::fixed || plan.input.camera) return {};
-    const Region* at = &*document.background;
-    for (const Region* region : activeRegions(document)) {
-        if (region->mask.at(static_cast<int>(request.gazeAt.x), static_cast<int>(request.gazeAt.y)) < 128) continue;
-        at = region;
-        break;
-    }
-    const auto distance = distanceAt(document, *at, request.gazeAt);
+    const Region* region = regionAt(document, request.gazeAt);
+    const auto distance = distanceAt(document, region ? *region : *document.background, request.gazeAt);
     if (!distance) return {};
     // The eye turns about its centre of rotation, to where the point is seen through the lens at its focus power.
     const Point<CameraFrame> centre = opticalCentre(document, request.eye, *distance);

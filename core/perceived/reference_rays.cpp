@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/document/region_at.h"
 #include "core/optics/chromatic.h"
 #include "core/optics/gaze.h"
 
@@ -34,12 +35,9 @@ double accommodated(const EyeOptics& eye, const RegionPlan* region) {
     return std::clamp(-back.a / back.b, relaxed, relaxed + eye.accommodation.si());
 }
 
-/// Distance of what the picture shows at a point: the topmost region that covers at least half of it.
+/// Distance of what the picture shows at a point.
 std::optional<Metre> shownAt(const Document& document, Point<CameraFrame> at) {
-    const int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
-    for (const Region* region : activeRegions(document)) {
-        if (region->mask.at(x, y) >= 128) return distanceAt(document, *region, at);
-    }
+    if (const Region* region = regionAt(document, at)) return distanceAt(document, *region, at);
     return document.background ? distanceAt(document, *document.background, at) : std::nullopt;
 }
 

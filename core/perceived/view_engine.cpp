@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "core/base/elapsed.h"
 #include "core/perceived/engine_cut.h"
 #include "core/perceived/engine_raster.h"
 #include "core/perceived/engine_state.h"
@@ -28,9 +29,6 @@ using view::ViewRect;
 /// Surfaces whose blur differs by less than about half a pixel are blurred alike, however small it is.
 constexpr double kAlike = 0.6;
 using Clock = std::chrono::steady_clock;
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 PaddedPlane planeOf(const Radiance& albedo, std::size_t colour, view::TileCount tiles) {
     PaddedPlane plane(tiles.columns * kTileW, tiles.rows * kTileH);
