@@ -1,0 +1,170 @@
+#include "devices/dlpc350/lightcrafter.h"
+
+#include "core/plan/words.h"
+#include "devices/dlpc350/lightcrafter_set.h"
+
+namespace ilf::devices::dlpc350 {
+namespace {
+
+constexpr Second kPollPause = 100.0_ms;  ///< TI's own program
+constexpr int kMostPolls = 20;
+constexpr std::chrono::nanoseconds kAskEvery = std::chrono::seconds(1);
+/// Of video nobody measured: the slowest there is.
+constexpr Second kLongestFrame = 40.0_ms;
+
+void append(std::vector<std::string>& to, std::vector<std::string> more) {
+    to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LightCrafter>> LightCrafter::open(std::unique_ptr<UsbLink> link, Clock clock, BringUp bringUp) {
+    auto board = Conversation::over(std::move(link));
+    if (!board) return tl::unexpected(board.error());
+    return std::unique_ptr<LightCrafter>(new LightCrafter(*std::move(board), std::move(clock), std::move(bringUp)));
+}
+
+Result<Findings> LightCrafter::findings() {
+    Findings found;
+    const auto version = board_.ask<Version>();
+    if (!version) return tl::unexpected(version.error());
+    found.version = *version;
+    found.remarks = remarks(*version);
+    // Older firmware has no tag.
+    if (const auto tag = board_.ask<FirmwareTag>()) found.firmwareTag = tag->text;
+
+    const auto hardware = board_.ask<HardwareStatus>();
+    if (!hardware) return tl::unexpected(hardware.error());
+    append(found.troubles, troubles(*hardware));
+    const auto system = board_.ask<SystemStatus>();
+    if (!system) return tl::unexpected(system.error());
+    append(found.troubles, troubles(*system));
+    const auto status = board_.ask<MainStatus>();
+    if (!status) return tl::unexpected(status.error());
+    append(found.troubles, troubles(*status));
+
+    const auto display = board_.ask<Display>();
+    if (!display) return tl::unexpected(display.error());
+    found.display = *display;
+    const auto run = board_.ask<PatternRun>();
+    if (!run) return tl::unexpected(run.error());
+    found.run = *run;
+    if (found.display == Display::pattern) return found;
+
+    const auto video = board_.ask<VideoSignal>();
+    if (!video) return tl::unexpected(video.error());
+    found.video = *video;
+    if (const auto usable = usableVideo(); !usable) found.troubles.push_back(usable.error().what);
+    return found;
+}
+
+Result<VideoSignal> LightCrafter::usableVideo() {
+    const auto video = board_.ask<VideoSignal>();
+    if (!video) return video;
+    const std::string wanted = std::to_string(bringUp_.raster.width) + "x" + std::to_string(bringUp_.raster.height);
+    if (!video->locked)
+        return tl::unexpected(about("has locked on no picture at its HDMI input. Check the cable, and that its display "
+                                    "is switched on with exactly " +
+                                    wanted + "."));
+    if (video->width != bringUp_.raster.width || video->height != bringUp_.raster.height)
+        return tl::unexpected(about("gets " + inWords(*video) + "; slots are shown right only at exactly " + wanted +
+                                    ". Set that mode for its display."));
+    if (video->refresh <= 0.0_Hz)
+        return tl::unexpected(about("does not say how fast its video comes. Unplug the video and plug it in again."));
+    return video;
+}
+
+Result<VideoSignal> LightCrafter::measuredVideo() {
+    const auto display = board_.ask<Display>();
+    if (!display) return tl::unexpected(display.error());
+    if (*display == Display::pattern) return video_ ? Result<VideoSignal>(*video_) : videoAfterSwitching();
+    const auto video = usableVideo();
+    if (video) video_ = *video;
+    return video;
+}
+
+Result<VideoSignal> LightCrafter::videoAfterSwitching() {
+    if (const auto ok = showVideo(); !ok) return tl::unexpected(ok.error());
+    for (int polls = 0;; ++polls) {
+        const auto video = usableVideo();
+        if (video) video_ = *video;
+        if (video || polls == kMostPolls) return video;
+        wait(kPollPause);
+    }
+}
+
+Result<void> LightCrafter::stop() {
+    toldToRun_ = false;
+    askedAt_.reset();
+    const auto order = payloadOf(PatternRun::stopped);
+    if (const auto ok = board_.tell(kCommandOf<PatternRun>, order); !ok) return ok;
+    for (int polls = 0; polls < kMostPolls; ++polls) {
+        const auto run = board_.ask<PatternRun>();
+        if (!run) return tl::unexpected(run.error());
+        if (*run == PatternRun::stopped) return {};
+        wait(kPollPause);
+    }
+    return tl::unexpected(about("was told to stop its patterns but says they still run. Switch its power off and on."));
+}
+
+Result<void> LightCrafter::setDisplay(Display display) {
+    const auto before = board_.ask<Display>();
+    if (!before) return tl::unexpected(before.error());
+    if (*before == display) return {};
+    if (const auto ok = board_.tell(kCommandOf<Display>, payloadOf(display)); !ok) return ok;
+    for (int polls = 0; polls < kMostPolls; ++polls) {
+        const auto found = board_.ask<Display>();
+        if (!found) return tl::unexpected(found.error());
+        if (*found == display) return {};
+        wait(kPollPause);
+    }
+    return tl::unexpected(mismatch<Display>(name(), display, *before));
+}
+
+Result<void> LightCrafter::showVideo() {
+    if (const auto ok = stop(); !ok) return ok;
+    return setDisplay(Display::video);
+}
+
+Result<Watched> LightCrafter::watch() {
+    const auto now = clock_.now();
+    if (askedAt_ && now - *askedAt_ < kAskEvery) return watched_;
+    const auto display = board_.ask<Display>();
+    if (!display) return tl::unexpected(display.error());
+    const auto run = board_.ask<PatternRun>();
+    if (!run) return tl::unexpected(run.error());
+    const auto status = board_.ask<MainStatus>();
+    if (!status) return tl::unexpected(status.error());
+    const auto hardware = board_.ask<HardwareStatus>();
+    if (!hardware) return tl::unexpected(hardware.error());
+    askedAt_ = now;
+
+    Watched seen{*display, *run, false, watched_.flips, troubles(*hardware)};
+    append(seen.troubles, troubles(*status));
+    if (toldToRun_ && *display == Display::video) {
+        // The board's own controller does this whenever an HDMI source appears (operators R12).
+        ++seen.flips;
+        toldToRun_ = false;
+        forgetVideo();
+        seen.troubles.push_back(name() + " left pattern mode by itself, as it does when an HDMI source appears: it now "
+                                         "shows plain video. Press TAKE to start the slots again.");
+    } else if (toldToRun_ && (*run != PatternRun::running || !status->sequencerRunning)) {
+        seen.troubles.push_back(name() +
+                                " stopped showing patterns by itself. Check its video, then press TAKE to start "
+                                "the slots again.");
+    }
+    seen.playing = toldToRun_ && seen.troubles.empty();
+    watched_ = seen;
+    return seen;
+}
+
+Error LightCrafter::stoppedAfter(const Error& error) {
+    constexpr int kTries = 3;  // the first may only drain what the failed message left behind
+    for (int tries = 0; tries < kTries; ++tries)
+        if (stop()) return error;
+    return {error.fault, error.what + " It could not be stopped either: its light is not known."};
+}
+
+Second LightCrafter::twoFrames() const { return video_ ? 2.0 / video_->refresh : 2.0 * kLongestFrame; }
+
+}  // namespace ilf::devices::dlpc350
