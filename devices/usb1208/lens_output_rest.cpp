@@ -1,0 +1,85 @@
+// How lenses on the DAC come to rest, whatever happened before.
+#include <utility>
+
+#include "devices/lens_driver/limits.h"
+#include "devices/usb1208/lens_output.h"
+#include "devices/usb1208/messages.h"
+
+namespace ilf::devices {
+namespace {
+
+// On the way to rest a device that hangs may cost no more than this for each request.
+constexpr Milliseconds kControlAtRest{20};
+// 40 ms of steps: with the requests' own time inside 100 ms.
+constexpr int kSteps = 8;
+constexpr Milliseconds kStep{5};
+
+}  // namespace
+
+tl::unexpected<Error> LensOutput::faulted(Error error) {
+    if (!fault_) {
+        fault_ = error;
+        safe();
+    }
+    return tl::unexpected(std::move(error));
+}
+
+Result<void> LensOutput::safe() {
+    // Playing out what is buffered would take 80 ms before the first step: the scan is cut off, and the ramp goes by
+    // single writes. A cut stops the lens where it is, which is no steeper than any sweep.
+    const auto stop = stopped();
+    const auto& [left, right] = setup_.channels;
+    // Where the outputs stand can only be asked; a device that cannot tell goes to rest in one step.
+    const auto from = readOutputs().value_or(std::pair(left.rest, right.rest));
+    Result<void> last;
+    bool told = false;
+    for (int step = from == std::pair(left.rest, right.rest) ? kSteps : 1; step <= kSteps; ++step) {
+        const double share = static_cast<double>(step) / kSteps;
+        last = held(from.first + share * (left.rest - from.first), from.second + share * (right.rest - from.second));
+        told = told || last;
+        if (!last && !told) break;
+        if (step < kSteps) clock_.wait(kStep);
+    }
+    return last ? stop : last;
+}
+
+Result<void> LensOutput::stopped() {
+    // A single disturbance is no reason to let it run.
+    auto stop = link_->controlOut(usb1208::kStopOutput, {}, kControlAtRest);
+    if (!stop) stop = link_->controlOut(usb1208::kStopOutput, {}, kControlAtRest);
+    stream_.reset();
+    sweeping_ = false;
+    {
+        const std::scoped_lock lock(mutex_);
+        player_.reset();
+    }
+    // What was cut off must not be played when the next scan starts; that start clears again, so an error waits for it.
+    link_->controlOut(usb1208::kClearOutput, {}, kControlAtRest);
+    return stop;
+}
+
+Result<void> LensOutput::held(Ampere left, Ampere right) {
+    const auto write = [&](int channel, const Amplifier& amplifier, Ampere current) {
+        const Ampere safe = clamped(current, {-amplifier.most, amplifier.most});
+        const auto code = usb1208::outputCode(voltsFor(amplifier, safe));
+        const auto request = usb1208::setOutput(channel, code);
+        auto done = link_->controlOut(request, {}, kControlAtRest);
+        if (!done) done = link_->controlOut(request, {}, kControlAtRest);
+        return done;
+    };
+    // The other lens is told whatever became of the one.
+    auto one = write(0, setup_.channels.left.amplifier, left);
+    auto other = write(1, setup_.channels.right.amplifier, right);
+    return one ? other : one;
+}
+
+std::optional<std::pair<Ampere, Ampere>> LensOutput::readOutputs() {
+    const auto codes = link_->controlIn(usb1208::kReadOutputs, usb1208::kReadOutputsBytes, kControlAtRest)
+                           .and_then(usb1208::outputsFrom);
+    if (!codes || (*codes)[0] >= usb1208::kCodes || (*codes)[1] >= usb1208::kCodes) return std::nullopt;
+    const auto& [left, right] = setup_.channels;
+    return std::pair(currentAt(left.amplifier, usb1208::outputVolts((*codes)[0])),
+                     currentAt(right.amplifier, usb1208::outputVolts((*codes)[1])));
+}
+
+}  // namespace ilf::devices
