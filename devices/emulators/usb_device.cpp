@@ -1,5 +1,6 @@
 #include "devices/emulators/usb_device.h"
 
+#include <algorithm>
 #include <initializer_list>
 
 namespace ilf::devices::emulators {
@@ -9,6 +10,17 @@ namespace {
 void append(Bytes& bytes, std::initializer_list<int> values) {
     for (const int value : values)
         bytes.push_back(static_cast<std::uint8_t>(value));
+}
+
+/// UTF-16; index 0 lists the languages: US English.
+Bytes stringDescriptor(const UsbDescriptors& descriptors, std::uint8_t index) {
+    if (index == 0) return {4, 3, 0x09, 0x04};
+    const auto found = descriptors.strings.find(index);
+    if (found == descriptors.strings.end()) return {};
+    Bytes bytes = {static_cast<std::uint8_t>(2 + 2 * found->second.size()), 3};
+    for (const char letter : found->second)
+        append(bytes, {letter, 0});
+    return bytes;
 }
 
 }  // namespace
@@ -36,6 +48,36 @@ UsbDescriptors usbDescriptors(const UsbShape& shape) {
                                     endpoint.packet >> 8, endpoint.attributes == 3 ? 1 : 0});
     if (hid) made.kernelDriver = "usbhid";
     return made;
+}
+
+// USB 2.0 specification, chapter 9.4.
+UsbTransfer controlTransfer(EmulatedUsbDevice& device, const UsbDescriptors& descriptors, const ControlSetup& setup,
+                            std::span<std::uint8_t> data, std::int64_t now_ns) {
+    if ((setup.requestType & 0x60U) != 0) return device.control(setup, data, now_ns);
+    constexpr std::uint8_t kGetStatus = 0, kGetDescriptor = 6, kGetConfiguration = 8;
+    Bytes answer;
+    if (setup.request == kGetStatus) answer = {0, 0};
+    if (setup.request == kGetConfiguration) answer = {1};
+    if (setup.request == kGetDescriptor) {
+        switch (setup.value >> 8U) {
+        case 1:
+            answer = descriptors.device;
+            break;
+        case 2:
+            answer = descriptors.configuration;
+            break;
+        case 3:
+            answer = stringDescriptor(descriptors, static_cast<std::uint8_t>(setup.value));
+            break;
+        default:
+            break;
+        }
+    }
+    if ((setup.requestType & 0x80U) == 0) return {UsbAnswer::done, data.size()};
+    if (answer.empty()) return {UsbAnswer::stall, 0};
+    const std::size_t bytes = std::min(answer.size(), data.size());
+    std::copy_n(answer.begin(), bytes, data.begin());
+    return {UsbAnswer::done, bytes};
 }
 
 }  // namespace ilf::devices::emulators

@@ -69,4 +69,9 @@ public:
     virtual std::optional<std::int64_t> backOnBusAt() const { return std::nullopt; }
 };
 
+/// A control transfer as a device's bus controller answers it: standard requests from the descriptors, the rest from
+/// the device.
+UsbTransfer controlTransfer(EmulatedUsbDevice& device, const UsbDescriptors& descriptors, const ControlSetup& setup,
+                            std::span<std::uint8_t> data, std::int64_t now_ns);
+
 }  // namespace ilf::devices::emulators
