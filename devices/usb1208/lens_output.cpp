@@ -139,7 +139,8 @@ Result<LensOutputReport> LensOutput::checkedNow() {
     const auto status =
         link_->controlIn(usb1208::kReadStatus, usb1208::kStatusBytes, kControl).and_then(usb1208::statusFrom);
     if (!status) return tl::unexpected(status.error());
-    if (status->underrun)
+    // At rest the bit may be left over from what ran before.
+    if (sweeping_ && status->underrun)
         return fail(Fault::device,
                     "The DAC ran out of samples, so the lenses stood still for a moment: this computer was "
                     "too busy. Close other programs, or let more transfers wait (rig).");

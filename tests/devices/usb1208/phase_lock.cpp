@@ -70,7 +70,7 @@ struct Bench {
 }  // namespace
 
 TEST_CASE("phase lock: for clocks within 100 ppm and edges within a sample the sweep stays within two samples") {
-    law("locked in after two seconds, then for half a minute", [] {
+    law("locked in after two seconds, then held", [] {
         Bench bench;
         bench.ppm = *rc::gen::inRange(-100, 101);
         bench.jitter = *rc::gen::inRange(0, 11) * 0.1;
@@ -78,7 +78,7 @@ TEST_CASE("phase lock: for clocks within 100 ppm and edges within a sample the s
         bench.seed = *rc::gen::inRange(1U, 1000U);
         bench.run(120, false);
         RC_ASSERT(bench.lock.locked());
-        bench.run(1800, true);
+        bench.run(300, true);
         RC_ASSERT_FALSE(bench.refused);
         RC_ASSERT(bench.worst <= 2.0);
         const auto report = bench.lock.report();
@@ -98,7 +98,7 @@ TEST_CASE("phase lock: triggers that are missing now and then are counted and do
         bench.missing = 0.1;
         bench.seed = *rc::gen::inRange(1U, 1000U);
         bench.run(150, false);
-        bench.run(900, true);
+        bench.run(250, true);
         RC_ASSERT(bench.lock.locked());
         RC_ASSERT(bench.lock.report().missing > 0);
         RC_ASSERT(bench.worst <= 2.0);
@@ -110,7 +110,7 @@ TEST_CASE("phase lock: a locked sweep is not slipped to and fro") {
     bench.jitter = 0.5;
     bench.run(120, false);
     const auto before = bench.lock.report().slips;
-    bench.run(3600, true);
+    bench.run(1800, true);
     CHECK(bench.lock.report().slips - before <= 4);
     CHECK(bench.worst <= 1.5);
 }
