@@ -41,10 +41,7 @@ Result<void> claimed(OpenUsbDevice& open, libusb_device* device) {
     libusb_set_auto_detach_kernel_driver(open.handle, 1);  // where unsupported, the claim says busy
     const int code = libusb_claim_interface(open.handle, open.interfaceNumber);
     if (code == LIBUSB_ERROR_BUSY) {
-        auto holders = programsHolding(nodeOf(device));
-        // We have just opened it too; only when nobody else has is it ourselves who claimed it before.
-        if (holders.size() > 1) std::erase(holders, "this program itself");
-        return tl::unexpected(usbBusyError(open.identity, holders, driver));
+        return tl::unexpected(usbBusyError(open.identity, programsHolding(nodeOf(device)), driver));
     }
     if (code == LIBUSB_ERROR_NOT_FOUND)
         return fail(Fault::device, inWords(open.identity) + " has no interface " +

@@ -84,9 +84,8 @@ std::vector<std::string> programsHolding(const fs::path& node, const fs::path& p
     std::error_code gone;
     for (fs::directory_iterator process(processes, gone), end; !gone && process != end; process.increment(gone)) {
         const std::string id = process->path().filename().string();
-        if (!isNumber(id) || !holds(process->path(), node)) continue;
-        const bool us = id == std::to_string(::getpid());
-        found.push_back(us ? "this program itself" : nameOf(process->path()) + " (process " + id + ")");
+        if (!isNumber(id) || id == std::to_string(::getpid()) || !holds(process->path(), node)) continue;
+        found.push_back(nameOf(process->path()) + " (process " + id + ")");
     }
     std::sort(found.begin(), found.end());
     return found;

@@ -21,8 +21,8 @@ Error usbPermissionError(const UsbIdentity& identity, const std::string& node);
 Error usbBusyError(const UsbIdentity& identity, const std::vector<std::string>& holders,
                    const std::string& kernelDriver);
 
-/// Programs that have `node` open, as "name (process 123)"; of other users' programs only root sees any. `processes`
-/// is /proc.
+/// Other programs that have `node` open, as "name (process 123)"; of other users' programs only root sees any.
+/// `processes` is /proc.
 std::vector<std::string> programsHolding(const std::filesystem::path& node,
                                          const std::filesystem::path& processes = "/proc");
 /// The kernel driver bound to an interface, from /sys; empty: none.

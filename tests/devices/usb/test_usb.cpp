@@ -2,8 +2,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "devices/usb/usb_bus.h"
 #include "devices/usb/usb_words.h"
@@ -43,10 +46,18 @@ TEST_CASE("usb: a device in use is told with who holds it") {
 
 TEST_CASE("usb: programs that hold a node are found among the processes") {
     const auto node = std::filesystem::temp_directory_path() / ("ilf-test-node-" + std::to_string(::getpid()));
-    std::ofstream open(node);
-    CHECK(programsHolding(node) == std::vector<std::string>{"this program itself"});
-    open.close();
+    std::ofstream ours(node);
     CHECK(programsHolding(node).empty());
+    FILE* shell = ::popen(("exec 3< " + node.string() + "; read end").c_str(), "w");
+    REQUIRE(shell != nullptr);
+    std::vector<std::string> found;
+    for (int tries = 0; tries < 500 && found.empty(); ++tries) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        found = programsHolding(node);
+    }
+    ::pclose(shell);
+    REQUIRE(found.size() == 1);
+    CHECK(found.front().find("sh (process ") != std::string::npos);
 
     // Another program, as /proc would show it.
     const auto processes = std::filesystem::temp_directory_path() / ("ilf-test-proc-" + std::to_string(::getpid()));
