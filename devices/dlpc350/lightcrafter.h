@@ -59,6 +59,7 @@ public:
 
     static Result<std::unique_ptr<LightCrafter>> open(std::unique_ptr<UsbLink> link, Clock clock, BringUp bringUp = {});
 
+    /// Reads only. Asking disturbs running patterns, so not during a show (see watch).
     Result<Findings> findings();
 
     /// The video that arrives, locked and of the raster's size, or why it cannot be used. In pattern mode the board

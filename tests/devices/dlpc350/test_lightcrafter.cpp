@@ -1,6 +1,7 @@
 #include "devices/dlpc350/lightcrafter.h"
 
 #include <memory>
+#include <set>
 
 #include "tests/devices/dlpc350/fake_board.h"
 #include "tests/support/law.h"
@@ -298,6 +299,24 @@ TEST_CASE("lightcrafter: the watch asks at most once a second and notices a flip
     bench.board->unplugged = true;
     bench.time.time += std::chrono::seconds(1);
     CHECK(!bench.driver->watch());
+}
+
+TEST_CASE("lightcrafter: LED currents, program mode, bootloader, reset and power are never touched") {
+    const std::set<std::string> known{"1A07", "1A1A", "1A1B", "1A1D", "1A1E", "1A22", "1A23",
+                                      "1A24", "1A29", "1A31", "1A32", "1A33", "1A34"};
+    BringUp bringUp;
+    bringUp.triggerOut1 = TriggerOut1{};
+    bringUp.triggerOut2 = TriggerOut2{};
+    Bench bench(bringUp);
+    bench.board->registers[0x1A07] = {0x07};
+    REQUIRE(bench.driver->findings());
+    REQUIRE(bench.driver->start(kSlots));
+    REQUIRE(bench.driver->watch());
+    REQUIRE(bench.driver->showVideo());
+    bench.board->registers[0x1A0A] = {0x80};
+    REQUIRE(!bench.driver->start(kSlots));
+    for (const std::string& told : bench.board->told)
+        CHECK(known.contains(told.substr(0, 4)));
 }
 
 TEST_CASE("lightcrafter: plain video is patterns stopped and the mode changed, once") {
