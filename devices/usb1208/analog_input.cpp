@@ -25,7 +25,8 @@ Result<std::unique_ptr<AnalogInput>> AnalogInput::start(std::shared_ptr<UsbLink>
 }
 
 AnalogInput::~AnalogInput() {
-    link_->controlOut(usb1208::kStopInput, {}, kControl);
+    // A single disturbance is no reason to let it run.
+    if (!link_->controlOut(usb1208::kStopInput, {}, kControl)) link_->controlOut(usb1208::kStopInput, {}, kControl);
     stream_.reset();
     link_->controlOut(usb1208::kClearInput, {}, kControl);
 }

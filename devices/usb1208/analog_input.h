@@ -26,8 +26,8 @@ struct HeardBlock {
     std::vector<double> trigger, second;
 };
 
-/// Calls come from one thread; samples arrive on the stream's own. Inputs and outputs count by the same oscillator as
-/// far as is known (one 60 MHz clock in the manual's text); that was never measured here.
+/// Calls come from one thread; samples arrive on the stream's own. Inputs and outputs presumably count by the same 60
+/// MHz oscillator; that is unverified, and `SweepSync` notices where it is not so.
 class AnalogInput {
 public:
     /// Reads the factory calibration, then starts. Without a calibration that makes sense, codes are nominal.

@@ -174,6 +174,16 @@ std::optional<SweepPlayer::Place> LensOutput::placeOf(double frame) const {
     return sweeping_ && player_ ? player_->placeOf(frame) : std::nullopt;
 }
 
+SweepPlayer::Tone LensOutput::leftTone() const {
+    const std::scoped_lock lock(mutex_);
+    return sweeping_ && player_ ? player_->leftTone() : SweepPlayer::Tone{};
+}
+
+int LensOutput::samplesPerSweep() const {
+    const std::scoped_lock lock(mutex_);
+    return sweeping_ && player_ ? static_cast<int>(player_->samples()) : 0;
+}
+
 double LensOutput::playedFrames() const {
     if (!sweeping_) return 0.0;
     return std::chrono::duration<double>(clock_.now() - startedAt_).count() * usb1208::kSampleRate_Hz;

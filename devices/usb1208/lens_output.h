@@ -63,6 +63,10 @@ public:
 
     /// Where a sample that is or was played stands; none at rest.
     std::optional<SweepPlayer::Place> placeOf(double frame) const;
+    /// See `SweepPlayer`; a fundamental of 0 at rest.
+    SweepPlayer::Tone leftTone() const;
+    std::chrono::nanoseconds startedAt() const { return startedAt_; }
+    int samplesPerSweep() const;
     /// The sample that is played about now, from the time since the start (its clock is the DAC's, within ppm).
     double playedFrames() const;
 

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <utility>
 
 #include "devices/usb1208/messages.h"
@@ -131,6 +132,7 @@ void SweepPlayer::beginSweep() {
     } else if (!fading_ && next_) {
         if (fadeSweeps_ == 0) {
             now_ = *std::exchange(next_, std::nullopt);
+            alone_ = made_;
         } else {
             fading_ = true;
             fadedSweeps_ = 0;
@@ -160,6 +162,7 @@ void SweepPlayer::finishFade() {
     now_ = *std::exchange(next_, std::nullopt);
     fading_ = false;
     fadeSweeps_ = 0;
+    alone_ = made_;
     if (shiftBy_ == 0) return;
     // The wave was moved by rotating it; from now on its start is what moved.
     const auto turn = [&](std::vector<double>& wave) {
@@ -232,6 +235,17 @@ Result<Change> SweepPlayer::shift(int samples) {
 }
 
 void SweepPlayer::slip(int samples) { slipsWaiting_ += samples; }
+
+SweepPlayer::Tone SweepPlayer::leftTone() const {
+    Tone tone{0.0, alone_};
+    if (next_) return tone;
+    const double count = static_cast<double>(now_.size());
+    for (std::size_t i = 0; i < now_.size(); ++i) {
+        const double volts = voltsFor(channels_.left.amplifier, Ampere::fromSi(now_.left[i])).si();
+        tone.fundamental += volts * std::polar(2.0 / count, -2.0 * std::numbers::pi * static_cast<double>(i) / count);
+    }
+    return tone;
+}
 
 std::optional<SweepPlayer::Place> SweepPlayer::placeOf(double frame) const {
     std::optional<Place> nearest;

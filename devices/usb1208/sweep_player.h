@@ -1,6 +1,7 @@
 // The endless stream of samples for both lenses: sweeps that follow each other, swap, slip and shift without a jump.
 #pragma once
 
+#include <complex>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -70,6 +71,13 @@ public:
     Result<Change> shift(int samples);
 
     std::int64_t frames() const { return made_; }
+    /// What AO0 plays over and over, for hearing where it stands.
+    struct Tone {
+        /// Volts: Re(fundamental e^(2 pi i x)) is its part of one period, x in sweeps. 0 while waves change.
+        std::complex<double> fundamental;
+        std::int64_t since = 0;  ///< the frame from which it plays alone
+    };
+    Tone leftTone() const;
     /// Where a frame is: how many samples after (or, below 0, before) the nearest start of a sweep, and by how many
     /// samples slips and shifts had moved that start. None before the first, or more than two seconds ago.
     struct Place {
@@ -95,7 +103,7 @@ private:
     std::size_t sample_ = 0, slipAt_ = 0;
     int slipNow_ = 0, slipsWaiting_ = 0;
     bool repeating_ = false;
-    std::int64_t made_ = 0, moved_ = 0;
+    std::int64_t made_ = 0, moved_ = 0, alone_ = 0;
     Ampere left_, right_;
     std::deque<Start> starts_;
 };

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -178,6 +180,36 @@ TEST_CASE("lens driver messages: random bytes neither crash a decoder nor stop t
         const Bytes data = *rc::gen::container<Bytes>(length, rc::gen::arbitrary<std::uint8_t>());
         decodeAll(data);
     });
+}
+
+TEST_CASE("lens driver messages: a hundred thousand random messages each end in a frame, noise or a wait for more") {
+    std::minstd_rand random(1);
+    std::size_t answers = 0;
+    for (int i = 0; i < 100'000; ++i) {
+        Bytes data(random() % 24);
+        for (auto& byte : data)
+            byte = static_cast<std::uint8_t>(random() >> 8);
+        const auto& expected = everyAnswer()[random() % everyAnswer().size()];
+        // Most start as they should and end with a line, so that they get past the first look.
+        if (!data.empty() && random() % 4 != 0) data[0] = static_cast<std::uint8_t>(expected.first);
+        const auto length = static_cast<std::size_t>(expected.letters + expected.data) + 4;
+        if (data.size() >= length && random() % 2 != 0) {
+            const auto crc = crc16(View(data).first(length - 4));
+            data[length - 4] = static_cast<std::uint8_t>(crc & 0xFF);
+            data[length - 3] = static_cast<std::uint8_t>(crc >> 8);
+            data[length - 2] = '\r';
+            data[length - 1] = '\n';
+        }
+        const auto frame = framed(data, expected);
+        REQUIRE(frame.used <= data.size());
+        REQUIRE((frame.kind == Frame::Kind::more) == (frame.used == 0));
+        if (frame.kind == Frame::Kind::answer) {
+            ++answers;
+            decodeAll(frame.data);
+        }
+        decodeAll(data);
+    }
+    CHECK(answers > 1000);
 }
 
 TEST_CASE("lens driver messages: values as the reference gives them") {

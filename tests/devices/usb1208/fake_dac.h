@@ -25,6 +25,7 @@ struct FakeDac {
     std::function<double(double)> input = [](double) { return 0.0; };  ///< volts at AI0, by seconds
     std::function<double(double)> secondInput = [](double) { return 0.0; };
     std::vector<std::uint8_t> calibration = std::vector<std::uint8_t>(64, 0);
+    std::chrono::nanoseconds resolution{500'000};
     // What it does.
     std::array<int, 2> codes{0, 0};
     bool outputRuns = false, underrun = false, halted = false, inputRuns = false, overrun = false;
@@ -78,7 +79,7 @@ struct FakeDac {
     void pass(std::chrono::nanoseconds time) {
         // In small steps, as the bus would.
         for (auto left = time; left.count() > 0;) {
-            const auto step = std::min<std::chrono::nanoseconds>(left, std::chrono::microseconds(500));
+            const auto step = std::min(left, resolution);
             left -= step;
             convert(step);
             at += step;
