@@ -13,6 +13,8 @@ class Box {
 public:
     Box() = default;
     explicit Box(T value) : value_(std::make_shared<const T>(std::move(value))) {}
+    /// Takes over a value that nobody else will change any more.
+    explicit Box(std::shared_ptr<const T> value) : value_(std::move(value)) {}
 
     const T& operator*() const { return *value_; }
     const T* operator->() const { return value_.get(); }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
+
+#include "core/perceived/engine_simd.h"
 
 namespace ilf::view {
 
@@ -19,43 +22,47 @@ ViewRect TilePlane::fill(int tile, float value) {
     return changed;
 }
 
+namespace {
+
+/// A box around the bits of a tile.
+ViewRect boxOf(const std::array<std::uint64_t, kTileH>& rows, ViewRect tile) {
+    std::uint64_t columns = 0;
+    int first = kTileH, last = 0;
+    for (int y = 0; y < kTileH; ++y) {
+        const std::uint64_t row = rows[static_cast<std::size_t>(y)];
+        if (row == 0) continue;
+        columns |= row;
+        first = std::min(first, y);
+        last = y + 1;
+    }
+    if (columns == 0) return {};
+    return {tile.x0 + std::countr_zero(columns), tile.y0 + first, tile.x0 + kTileW - std::countl_zero(columns),
+            tile.y0 + last};
+}
+
+ViewRect common(ViewRect a, ViewRect b) {
+    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+
+}  // namespace
+
 ViewRect TilePlane::set(int tile, const float* values) {
-    bool same = true;
-    for (int i = 1; i < kTilePixels && same; ++i)
-        same = values[i] == values[0];
+    static_assert(kTileW == 64, "a row of a tile is one word of bits");
     Cell& cell = cells_[static_cast<std::size_t>(tile)];
     const ViewRect rect = tiles_.rect(tile);
-    if (same && !cell.values) return fill(tile, values[0]);
-
-    const bool fresh = !cell.values;
-    if (fresh) cell.values = std::make_unique<float[]>(kTilePixels);
-    float* kept = cell.values.get();
-    if (fresh) std::fill_n(kept, kTilePixels, cell.uniform);
-    ViewRect changed, above;
-    for (int y = 0; y < kTileH; ++y) {
-        const float* now = values + y * kTileW;
-        float* before = kept + y * kTileW;
-        const bool differs = std::memcmp(now, before, sizeof(float) * kTileW) != 0;
-        int first = 0, last = kTileW;
-        while (first < kTileW && !(now[first] > 0.0F))
-            ++first;
-        while (last > first && !(now[last - 1] > 0.0F))
-            --last;
-        if (last > first) above = above.united({rect.x0 + first, rect.y0 + y, rect.x0 + last, rect.y0 + y + 1});
-        if (!differs) continue;
-        first = 0;
-        last = kTileW;
-        while (first < kTileW && now[first] == before[first])
-            ++first;
-        while (last > first && now[last - 1] == before[last - 1])
-            --last;
-        changed = changed.united({rect.x0 + first, rect.y0 + y, rect.x0 + last, rect.y0 + y + 1});
-        std::memcpy(before, now, sizeof(float) * kTileW);
+    if (!cell.values) {
+        const bool even = std::memcmp(values, values + 1, sizeof(float) * (kTilePixels - 1)) == 0;
+        if (even) return fill(tile, values[0]);
+        cell.values = std::make_unique<AlignedFloats>(kTilePixels);
+        std::fill_n(cell.values->data(), kTilePixels, cell.uniform);
     }
+    const TileBits bits = keepTile(cell.values->data(), values);
+    ViewRect changed = boxOf(bits.changed, rect);
+    const ViewRect above = boxOf(bits.lit, rect);
     // What reads a window asks for the box of all light near it: a box that grew or shrank is a change over all of it.
     if (cell.box != above) changed = changed.united(cell.box).united(above);
     cell.box = above;
-    if (same) {
+    if (bits.even) {
         cell.values.reset();
         cell.uniform = values[0];
     }
@@ -79,14 +86,6 @@ bool TilePlane::uniformOver(ViewRect window, float value) const {
     return all;
 }
 
-namespace {
-
-ViewRect common(ViewRect a, ViewRect b) {
-    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-}
-
-}  // namespace
-
 ViewRect litBox(ViewRect window, std::span<const TilePlane* const> planes) {
     ViewRect lit;
     planes.front()->tiles().over(window, [&](int tile) {
@@ -100,6 +99,27 @@ ViewRect litBox(ViewRect window, std::span<const TilePlane* const> planes) {
     return lit;
 }
 
+std::optional<float> evenOver(ViewRect window, std::span<const TilePlane* const> planes) {
+    const TileCount tiles = planes.front()->tiles();
+    if (window.empty() || window.clipped({tiles.columns * kTileW, tiles.rows * kTileH}) != window) return {};
+    std::optional<float> even;
+    bool all = true;
+    tiles.over(window, [&](int tile) {
+        if (!all) return;
+        float product = 1.0F;
+        for (const TilePlane* plane : planes) {
+            if (plane->values(tile)) {
+                all = false;
+                return;
+            }
+            product *= plane->uniform(tile);
+        }
+        all = !even || *even == product;
+        even = product;
+    });
+    return all ? even : std::nullopt;
+}
+
 void product(float* out, int stride, ViewRect window, std::span<const TilePlane* const> planes) {
     const TileCount tiles = planes.front()->tiles();
     const ViewRect inside = window.clipped({tiles.columns * kTileW, tiles.rows * kTileH});
@@ -108,40 +128,19 @@ void product(float* out, int stride, ViewRect window, std::span<const TilePlane*
             std::fill_n(out + y * stride, window.width(), 0.0F);
     }
     tiles.over(inside, [&](int tile) {
-        const ViewRect part = common(inside, tiles.rect(tile));
+        const ViewRect rect = tiles.rect(tile), part = common(inside, rect);
         std::array<const float*, 3> varying{};
         std::size_t count = 0;
         float uniform = 1.0F;
         for (const TilePlane* plane : planes) {
             if (plane->values(tile)) {
-                varying[count++] = plane->values(tile);
+                varying[count++] = plane->values(tile) + (part.y0 - rect.y0) * kTileW + (part.x0 - rect.x0);
             } else {
                 uniform *= plane->uniform(tile);
             }
         }
-        const ViewRect rect = tiles.rect(tile);
-        for (int y = part.y0; y < part.y1; ++y) {
-            float* to = out + (y - window.y0) * stride + (part.x0 - window.x0);
-            const int at = (y - rect.y0) * kTileW + (part.x0 - rect.x0), width = part.width();
-            if (count == 0 || uniform == 0.0F) {
-                std::fill_n(to, width, uniform);
-                continue;
-            }
-            const float* a = varying[0] + at;
-            if (count == 1) {
-                for (int x = 0; x < width; ++x)
-                    to[x] = uniform * a[x];
-            } else if (count == 2) {
-                const float* b = varying[1] + at;
-                for (int x = 0; x < width; ++x)
-                    to[x] = uniform * a[x] * b[x];
-            } else {
-                const float* b = varying[1] + at;
-                const float* c = varying[2] + at;
-                for (int x = 0; x < width; ++x)
-                    to[x] = uniform * a[x] * b[x] * c[x];
-            }
-        }
+        coverage(out + (part.y0 - window.y0) * stride + (part.x0 - window.x0), stride, part.width(), part.height(),
+                 uniform == 0.0F ? std::array<const float*, 3>{} : varying, uniform);
     });
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "core/perceived/engine_floats.h"
 #include "core/perceived/surfaces.h"
 #include "core/perceived/view_engine.h"
 
@@ -49,7 +51,7 @@ public:
     ViewRect fill(int tile, float value);
 
     /// Null where the tile is uniform.
-    const float* values(int tile) const { return at(tile).values.get(); }
+    const float* values(int tile) const { return at(tile).values ? at(tile).values->data() : nullptr; }
     float uniform(int tile) const { return at(tile).uniform; }
     /// Pixels that may be above 0, in the view's frame.
     ViewRect box(int tile) const { return at(tile).box; }
@@ -62,7 +64,7 @@ public:
 private:
     struct Cell {
         float uniform = 0.0F;
-        std::unique_ptr<float[]> values;
+        std::unique_ptr<AlignedFloats> values;
         ViewRect box;
     };
     const Cell& at(int tile) const { return cells_[static_cast<std::size_t>(tile)]; }
@@ -72,6 +74,9 @@ private:
 
 /// Pixels of `window` where all planes are above 0: a box around them, empty if there are none.
 ViewRect litBox(ViewRect window, std::span<const TilePlane* const> planes);
+
+/// The planes' product where it is one number all over `window`.
+std::optional<float> evenOver(ViewRect window, std::span<const TilePlane* const> planes);
 
 /// out[y * stride + x] = product of the planes over `window` (`scale` where there are none), 0 beyond the tiles.
 void product(float* out, int stride, ViewRect window, std::span<const TilePlane* const> planes);

@@ -4,17 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "core/perceived/engine_simd.h"
+
 namespace ilf::view {
 namespace {
 
-/// Where one coordinate falls between two projector pixels.
-struct Between {
-    int first = 0, second = 0;
-    float part = 0.0F;
-    bool inside = false;
-};
-Between between(double at, int length) {
-    Between b;
+BetweenPixels between(double at, int length) {
+    BetweenPixels b;
     b.inside = at >= 0.0 && at <= length;
     const double u = std::clamp(at - 0.5, 0.0, length - 1.0);
     b.first = static_cast<int>(u);
@@ -24,6 +20,17 @@ Between between(double at, int length) {
 }
 
 }  // namespace
+
+LightMap::LightMap(const Homography<ProjectorFrame, CameraFrame>& to, const ViewScale& scaled, Size of, Size lit)
+    : toProjector(to), scale(scaled), view(of), projector(lit) {
+    const auto& m = to.m;
+    upright = m[1] == 0.0 && m[3] == 0.0 && m[6] == 0.0 && m[7] == 0.0;
+    if (!upright) return;
+    for (int x = 0; x < view.width; ++x)
+        columns.push_back(between((m[0] * ((x + 0.5) / scale.x) + m[2]) / m[8], projector.width));
+    for (int y = 0; y < view.height; ++y)
+        rows.push_back(between((m[4] * ((y + 0.5) / scale.y) + m[5]) / m[8], projector.height));
+}
 
 std::vector<PixelRect<ProjectorFrame>> LightRaster::update(const LightImage& image) {
     std::vector<PixelRect<ProjectorFrame>> changed;
@@ -59,53 +66,44 @@ std::vector<PixelRect<ProjectorFrame>> LightRaster::update(const LightImage& ima
     return changed;
 }
 
-void LightRaster::sample(float* out, ViewRect tile, Size view,
-                         const Homography<ProjectorFrame, CameraFrame>& toProjector, const ViewScale& scale) const {
+void LightRaster::sample(float* out, ViewRect tile, const LightMap& map) const {
     constexpr float kUnit = 1.0F / 255.0F;
-    const Size size = image_.size();
-    const int width = std::min(kTileW, view.width - tile.x0), height = std::min(kTileH, view.height - tile.y0);
+    const int width = std::min(kTileW, map.view.width - tile.x0), height = std::min(kTileH, map.view.height - tile.y0);
     if (width < kTileW || height < kTileH) std::fill_n(out, kTilePixels, 0.0F);
-    const auto& m = toProjector.m;
-    const bool upright = m[1] == 0.0 && m[3] == 0.0 && m[6] == 0.0 && m[7] == 0.0;
-    const auto value = [&](const Between& x, const Between& y) {
+    const auto value = [&](const BetweenPixels& x, const BetweenPixels& y) {
         const std::uint8_t* top = values_.data() + static_cast<std::ptrdiff_t>(y.first) * width_;
         const std::uint8_t* bottom = values_.data() + static_cast<std::ptrdiff_t>(y.second) * width_;
         const float above =
             static_cast<float>(top[x.first]) * (1.0F - x.part) + static_cast<float>(top[x.second]) * x.part;
         const float below =
             static_cast<float>(bottom[x.first]) * (1.0F - x.part) + static_cast<float>(bottom[x.second]) * x.part;
-        return (above * (1.0F - y.part) + below * y.part) * kUnit;
+        return x.inside && y.inside ? (above * (1.0F - y.part) + below * y.part) * kUnit : 0.0F;
     };
-    if (!upright) {
+    if (!map.upright) {
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
-                const auto at = toProjector({(tile.x0 + x + 0.5) / scale.x, (tile.y0 + y + 0.5) / scale.y});
-                const Between u = between(at.x, size.width), v = between(at.y, size.height);
-                out[y * kTileW + x] = u.inside && v.inside ? value(u, v) : 0.0F;
+                const auto at = map.toProjector({(tile.x0 + x + 0.5) / map.scale.x, (tile.y0 + y + 0.5) / map.scale.y});
+                out[y * kTileW + x] = value(between(at.x, map.projector.width), between(at.y, map.projector.height));
             }
         }
         return;
     }
-    std::array<Between, kTileW> across;
+    const BetweenPixels* across = map.columns.data() + tile.x0;
     bool straight = true;  // pixel for pixel
     for (int x = 0; x < width; ++x) {
-        Between& u = across[static_cast<std::size_t>(x)];
-        u = between((m[0] * ((tile.x0 + x + 0.5) / scale.x) + m[2]) / m[8], size.width);
+        const BetweenPixels& u = across[x];
         straight = straight && u.inside && u.part == 0.0F && u.first == across[0].first + x;
     }
     for (int y = 0; y < height; ++y) {
-        const Between v = between((m[4] * ((tile.y0 + y + 0.5) / scale.y) + m[5]) / m[8], size.height);
+        const BetweenPixels& v = map.rows[static_cast<std::size_t>(tile.y0 + y)];
         float* row = out + y * kTileW;
         if (straight && v.inside && v.part == 0.0F) {
             const std::uint8_t* from = values_.data() + static_cast<std::ptrdiff_t>(v.first) * width_ + across[0].first;
-            for (int x = 0; x < width; ++x)
-                row[x] = static_cast<float>(from[x]) * kUnit;
+            fromBytes(row, from, width, kUnit);
             continue;
         }
-        for (int x = 0; x < width; ++x) {
-            const Between& u = across[static_cast<std::size_t>(x)];
-            row[x] = u.inside && v.inside ? value(u, v) : 0.0F;
-        }
+        for (int x = 0; x < width; ++x)
+            row[x] = value(across[x], v);
     }
 }
 

@@ -6,15 +6,34 @@
 
 namespace ilf::view {
 
+/// Where one coordinate falls between two projector pixels.
+struct BetweenPixels {
+    int first = 0, second = 0;
+    float part = 0.0F;
+    bool inside = false;
+};
+
+/// Which projector pixels light which pixels of a view; the view's pixel (x, y) is the picture's (x / scale.x,
+/// y / scale.y).
+struct LightMap {
+    Homography<ProjectorFrame, CameraFrame> toProjector;
+    ViewScale scale;
+    Size view, projector;
+    bool upright = false;  ///< columns come from columns and rows from rows: those are worked out once
+    std::vector<BetweenPixels> columns, rows;
+
+    LightMap(const Homography<ProjectorFrame, CameraFrame>& toProjector, const ViewScale& scale, Size view,
+             Size projector);
+};
+
 /// One level's image and where it lands. Bilinear between projector pixels; the outermost reach to the raster's edge,
 /// beyond it is dark.
 class LightRaster {
 public:
     /// Takes over the image. Tells which projector pixels changed, tile by tile; all of them the first time.
     std::vector<PixelRect<ProjectorFrame>> update(const LightImage& image);
-    /// 64 x 32 values 0..1 of a tile; the view's pixel (x, y) is the picture's (x / scale.x, y / scale.y).
-    void sample(float* out, ViewRect tile, Size view, const Homography<ProjectorFrame, CameraFrame>& toProjector,
-                const ViewScale& scale) const;
+    /// 64 x 32 values 0..1 of a tile of the view.
+    void sample(float* out, ViewRect tile, const LightMap& map) const;
 
 private:
     LightImage image_;

@@ -142,27 +142,32 @@ AcrossTaps acrossTaps(const Placing& placing, int column) {
     taps.first = least.first;
     taps.width = most.first + 4 - least.first;
     const int perPhase = kTileW / placing.coarse;
+    std::vector<std::array<At, AcrossTaps::kLanes>> groups;
     for (int phase = 0; phase < placing.coarse; ++phase) {
         for (int start = 0; start < perPhase; start += AcrossTaps::kLanes) {
-            const auto of = [&](int lane) -> const At& {
-                return at[static_cast<std::size_t>(placing.coarse * (start + lane) + phase)];
-            };
-            int low = of(0).first, high = low;
+            auto& lanes = groups.emplace_back();
+            int low = 0, high = 0;
             for (int lane = 0; lane < AcrossTaps::kLanes; ++lane) {
-                low = std::min(low, of(lane).first - lane);
-                high = std::max(high, of(lane).first - lane);
+                const auto of = static_cast<std::size_t>(lane);
+                lanes[of] = at[static_cast<std::size_t>(placing.coarse * (start + lane) + phase)];
+                low = lane == 0 ? lanes[of].first : std::min(low, lanes[of].first - lane);
+                high = lane == 0 ? low : std::max(high, lanes[of].first - lane);
             }
-            AcrossTaps::Group group{phase, start, low - taps.first, high - low + 4,
-                                    static_cast<int>(taps.weights.size())};
-            taps.weights.resize(taps.weights.size() + static_cast<std::size_t>(group.taps * AcrossTaps::kLanes));
-            for (int lane = 0; lane < AcrossTaps::kLanes; ++lane) {
-                const int shift = of(lane).first - lane - low;
-                for (int i = 0; i < 4; ++i) {
-                    taps.weights[static_cast<std::size_t>(group.weights + (shift + i) * AcrossTaps::kLanes + lane)] =
-                        static_cast<float>(of(lane).weights[static_cast<std::size_t>(i)]);
-                }
+            taps.groups.push_back({low - taps.first, 0});
+            taps.taps = std::max(taps.taps, high - low + 4);
+        }
+    }
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        AcrossTaps::Group& group = taps.groups[g];
+        group.weights = static_cast<int>(taps.weights.size());
+        taps.weights.resize(taps.weights.size() + static_cast<std::size_t>(taps.taps * AcrossTaps::kLanes));
+        for (int lane = 0; lane < AcrossTaps::kLanes; ++lane) {
+            const At& of = groups[g][static_cast<std::size_t>(lane)];
+            const int shift = of.first - lane - (group.base + taps.first);
+            for (int i = 0; i < 4; ++i) {
+                taps.weights[static_cast<std::size_t>(group.weights + (shift + i) * AcrossTaps::kLanes + lane)] =
+                    static_cast<float>(of.weights[static_cast<std::size_t>(i)]);
             }
-            taps.groups.push_back(group);
         }
     }
     return taps;
@@ -182,19 +187,6 @@ DownTaps downTaps(const Placing& placing, int row) {
             taps.weights[y][i] = static_cast<float>(at[y].weights[i]);
     }
     return taps;
-}
-
-const Averaging& averaging(int coarse) {
-    static const Averaging none{0, {1.0F}}, half{1, {0.1F, 0.4F, 0.4F, 0.1F}};
-    static const Averaging quarter = [] {
-        Averaging twice{3, std::vector<float>(10)};
-        for (std::size_t outer = 0; outer < 4; ++outer) {
-            for (std::size_t inner = 0; inner < 4; ++inner)
-                twice.taps[2 * outer + inner] += half.taps[outer] * half.taps[inner];
-        }
-        return twice;
-    }();
-    return coarse == 1 ? none : coarse == 2 ? half : quarter;
 }
 
 }  // namespace ilf::view

@@ -32,12 +32,12 @@ struct AcrossTaps {
     static constexpr int kLanes = 16;
     int first = 0, width = 0;  ///< samples that are read
     int coarse = 1;
+    int taps = 4;  ///< of every group; a magnified picture needs some more than four
     struct Group {
-        int phase = 0, start = 0;  ///< lane 0 is pixel coarse * start + phase
-        int base = 0, taps = 0;    ///< lane l reads samples first + base + l .. + taps
-        int weights = 0;           ///< index into `weights`, taps x 16
+        int base = 0;     ///< lane l reads samples first + base + l .. + taps
+        int weights = 0;  ///< index into `weights`, taps x 16
     };
-    std::vector<Group> groups;
+    std::vector<Group> groups;  ///< phase by phase, in each from left to right
     std::vector<float> weights;
 };
 AcrossTaps acrossTaps(const Placing& placing, int column);
@@ -50,12 +50,9 @@ struct DownTaps {
 };
 DownTaps downTaps(const Placing& placing, int row);
 
-/// Averaging to 1/2 ([.1 .4 .4 .1]) or 1/4 (the same twice), along one axis: `taps[i]` weighs pixel coarse * x + i -
-/// lead.
-struct Averaging {
-    int lead = 0;
-    std::vector<float> taps;
-};
-const Averaging& averaging(int coarse);
+/// Averaging to 1/2 weighs four pixels so, along each axis; to 1/4 it is done twice.
+inline constexpr float kOuterTap = 0.1F, kInnerTap = 0.4F;
+/// Pixels it reads beyond its own, to either side.
+constexpr int averagingLead(int coarse) { return coarse == 1 ? 0 : coarse == 2 ? 1 : 3; }
 
 }  // namespace ilf::view

@@ -14,28 +14,28 @@ constexpr double kSameColour = 0.1;
 /// Magnification that moves nothing by more than this many pixels is none.
 constexpr double kNoShift = 0.02;
 
-std::shared_ptr<const EdgeKernel> kernelOf(double radius, int coarse, const PupilCell& cell) {
-    const double least = std::copysign(1e-6, radius);  // exactly in focus beside colours that are not
-    return std::make_shared<const EdgeKernel>(edgeKernel(std::abs(radius) < 1e-6 ? least : radius / coarse, cell,
-                                                         coarse == 1 ? PixelShape::tent : PixelShape::box));
+std::shared_ptr<const EdgeKernel> kernelOf(double radius_px, const Shown& shown, const PupilCell& cell) {
+    // Exactly in focus beside colours that are not.
+    double radius = std::abs(radius_px) < 1e-6 ? std::copysign(1e-6, radius_px) : radius_px / shown.placing.coarse;
+    // A uniform pixel spreads light less than one that is bilinear to its neighbours (1/12 and 1/6 of a pixel squared
+    // along each axis), a disc by a quarter of its radius squared: the wider disc makes up for it.
+    if (shown.shape == PixelShape::box && shown.placing.coarse == 1)
+        radius = std::copysign(std::sqrt(radius * radius + 1.0 / 3.0), radius);
+    return std::make_shared<const EdgeKernel>(edgeKernel(radius, cell, shown.shape));
 }
 
 int padded(int numbers) { return (numbers + 15) / 16 * 16 + kOverrun; }
-
-void need(std::vector<float>& room, std::size_t numbers) {
-    if (room.size() < numbers) room.resize(numbers);
-}
 
 }  // namespace
 
 RungRules rulesOf(Rung rung) {
     switch (rung) {
     case Rung::dragging:
-        return {0.3, 3.0, 12.0, 1, 1, 0.0, 0.7};
+        return {0.3, 3.0, 12.0, 1, 1, 0.0, 0.7, 1.5};
     case Rung::rest:
-        return {0.12, 8.0, 28.0, 2, 3, 8.0, 0.35};
+        return {0.12, 5.0, 20.0, 2, 3, 8.0, 0.5, 3.0};
     case Rung::idle:
-        return {0.05, 14.0, 48.0, 4, 6, 4.0, 0.15};
+        return {0.05, 9.0, 30.0, 4, 6, 4.0, 0.2, 4.0};
     }
     return {};
 }
@@ -69,13 +69,13 @@ ViewRect Shown::samples(TileCount tiles, int tile) const {
 
 ViewRect Shown::pixels(TileCount tiles, int tile) const {
     const ViewRect window = samples(tiles, tile).grown(reach);
-    const int c = placing.coarse, lead = averaging(c).lead;
+    const int c = placing.coarse, lead = averagingLead(c);
     return {window.x0 * c - lead, window.y0 * c - lead, window.x1 * c + lead, window.y1 * c + lead};
 }
 
 ViewRect Shown::litSamples(TileCount tiles, int tile, ViewRect lit) const {
     const ViewRect all = samples(tiles, tile);
-    const int c = placing.coarse, lead = averaging(c).lead;
+    const int c = placing.coarse, lead = averagingLead(c);
     const auto below = [&](int v) { return (v >= 0 ? v / c : -((c - 1 - v) / c)) - reach; };
     const auto above = [&](int v) { return below(v + c - 1) + 2 * reach; };
     // In whole fours of rows from the top: the blur sums a row in an order that depends on its place among the four.
@@ -106,6 +106,7 @@ Shown shown(const Looks& looks, int colours, TileCount tiles, const RungRules& r
                     look.centreY,
                     made.sharp ? Interpolation::linear : Interpolation::smooth,
                     made.sharp ? most : 0.0};
+    made.shape = coarse != 1 || least >= rules.thinRim_px ? PixelShape::box : PixelShape::tent;
     if (made.sharp) {
         made.kernels.emplace_back();
     } else {
@@ -123,7 +124,7 @@ void addCells(Shown& shown, const std::vector<PupilCell>& cells) {
     for (const PupilCell& cell : cells) {
         auto& kernels = shown.kernels.emplace_back();
         for (std::size_t c = 0; c < static_cast<std::size_t>(shown.colours); ++c) {
-            kernels[c] = kernelOf(shown.looks[shown.colours == 1 ? 1 : c].radius, shown.placing.coarse, cell);
+            kernels[c] = kernelOf(shown.looks[shown.colours == 1 ? 1 : c].radius, shown, cell);
             if (kernels[c]) shown.reach = std::max(shown.reach, kernels[c]->reach);
         }
     }
@@ -148,48 +149,54 @@ Workspace& workspace() {
     return work;
 }
 
-void maskOver(Workspace& work, ViewRect window, std::span<const TilePlane* const> planes) {
-    work.maskStride = padded(window.width());
-    need(work.mask,
-         static_cast<std::size_t>(work.maskStride) * static_cast<std::size_t>(window.height() + 4) + kOverrun);
-    const int beyond = work.maskStride - window.width();
-    for (int y = 0; y < window.height(); ++y)
-        std::fill_n(work.mask.data() + y * work.maskStride + window.width(), beyond, 0.0F);
-    product(work.mask.data(), work.maskStride, window, planes);
+void fetchAhead(const PaddedPlane& plane, ViewRect window) {
+    constexpr int kLine = 16;  // numbers fetched together
+    for (int y = window.y0; y < window.y1; ++y) {
+        const float* row = plane.at(window.x0, y);
+        for (int x = 0; x < window.width(); x += kLine)
+            __builtin_prefetch(row + x, 0, 2);
+    }
+}
+
+Covered coveredOver(Workspace& work, ViewRect window, std::span<const TilePlane* const> planes) {
+    if (const auto even = evenOver(window, planes)) return {window, nullptr, 0, *even};
+    return maskOver(work, window, planes);
+}
+
+Covered maskOver(Workspace& work, ViewRect window, std::span<const TilePlane* const> planes) {
+    const int stride = padded(window.width());
+    work.mask.need(static_cast<std::size_t>(stride) * static_cast<std::size_t>(window.height() + 4) + kOverrun);
+    product(work.mask.data(), stride, window, planes);
+    return {window, work.mask.data(), stride, 1.0F};
 }
 
 bool sumSource(Workspace& work, const Shown& shown, ViewRect part, const Source& source) {
     const ViewRect own = part.grown(shown.reach);
     const int stride = padded(own.width()), rows = own.height();
     work.sumStride = stride;
-    need(work.sums, static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows + 8) + kOverrun);
+    work.sums.need(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows + 8) + kOverrun);
     const ViewRect extent = source.values ? source.values->extent() : own;
     const ViewRect readable{std::max(own.x0, extent.x0), std::max(own.y0, extent.y0), std::min(own.x1, extent.x1),
                             std::min(own.y1, extent.y1)};
     if (readable.empty()) return false;
-    const float* mask = source.masked ? work.mask.data() + (readable.y0 - source.window.y0) * work.maskStride +
-                                            readable.x0 - source.window.x0
-                                      : nullptr;
+    const Covered& covered = source.covered;
+    const float* mask = covered.mask ? covered.mask + (readable.y0 - covered.window.y0) * covered.stride + readable.x0 -
+                                           covered.window.x0
+                                     : nullptr;
+    const float* values = source.values ? source.values->at(readable.x0, readable.y0) : mask;
+    const int valueStride = source.values ? source.values->stride() : covered.stride;
+    if (!source.values) mask = nullptr;
     float* sums = work.sums.data();
-    if (shown.sharp) {  // no sums: the products themselves, row by row
-        if (readable != own) std::fill_n(sums, stride * (rows + 8), 0.0F);
-        products(sums + (readable.y0 - own.y0) * stride + (readable.x0 - own.x0), stride, readable.width(),
-                 readable.height(), mask, work.maskStride,
-                 source.values ? source.values->at(readable.x0, readable.y0) : nullptr,
-                 source.values ? source.values->stride() : 0);
-        return true;
-    }
     if (readable != own) std::fill_n(sums, stride * (rows + 8), 0.0F);
     float* from = sums + (readable.y0 - own.y0) * stride + (readable.x0 - own.x0);
-    if (source.values) {
-        prefixSums(from, stride, readable.width(), readable.height(), mask, work.maskStride,
-                   source.values->at(readable.x0, readable.y0), source.values->stride());
-    } else {
-        prefixSums(from, stride, readable.width(), readable.height(), nullptr, 0, mask, work.maskStride);
+    if (shown.sharp) {  // no sums: the products themselves, row by row
+        products(from, stride, readable.width(), readable.height(), mask, covered.stride, values, valueStride);
+        return true;
     }
-    // Rows below what can be read, and the rows that only fill up the last four, repeat the last sums.
+    prefixSums(from, stride, readable.width(), readable.height(), mask, covered.stride, values, valueStride);
+    // Rows below what can be read repeat the last sums. (Rows that only fill up the last four are for nothing.)
     const int last = readable.y1 - own.y0;
-    for (int y = last + 1; y <= rows + 6; ++y)
+    for (int y = last + 1; y <= rows; ++y)
         std::memcpy(sums + y * stride, sums + last * stride, sizeof(float) * static_cast<std::size_t>(stride));
     return true;
 }
@@ -198,12 +205,12 @@ void addSummed(float* into, Workspace& work, const Shown& shown, const EdgeKerne
                ViewRect part, const float* shares, float weight) {
     const AcrossTaps& across = shown.across[static_cast<std::size_t>(tile % tiles.columns)];
     const DownTaps& down = shown.down[static_cast<std::size_t>(tile / tiles.columns)];
-    // Samples of the tile, of which `part` is not 0. The blur writes whole fours of rows and whole vectors.
+    // Samples of the tile, of which `part` is not 0. The blur writes whole fours of rows and whole vectors: what is
+    // left of former tiles beside a row, up to a vector to its left, meets weights of 0.
     const int stride = padded(across.width + AcrossTaps::kLanes);
-    // Lanes of zero weight reach up to a vector to the left of a row.
-    need(work.block,
-         static_cast<std::size_t>(stride) * static_cast<std::size_t>(down.height + 8) + kOverrun + AcrossTaps::kLanes);
-    need(work.across, static_cast<std::size_t>(kTileW) * static_cast<std::size_t>(down.height + 8) + kOverrun);
+    work.block.need(static_cast<std::size_t>(stride) * static_cast<std::size_t>(down.height + 8) + kOverrun +
+                    AcrossTaps::kLanes);
+    work.across.need(static_cast<std::size_t>(kTileW) * static_cast<std::size_t>(down.height + 8) + kOverrun);
     const int x0 = part.x0 - across.first, y0 = part.y0 - down.first, width = part.width(), height = part.height();
     float* block = work.block.data() + AcrossTaps::kLanes + y0 * stride;
     if (kernel) {
@@ -222,10 +229,12 @@ void addSummed(float* into, Workspace& work, const Shown& shown, const EdgeKerne
                 to[x] = below[x] - above[x];
         }
     }
-    for (int y = 0; y < height; ++y) {
-        float* row = block + y * stride;
-        std::fill_n(row, x0, 0.0F);
-        std::fill(row + x0 + width, row + stride, 0.0F);
+    if (width < across.width) {
+        for (int y = 0; y < height; ++y) {
+            float* row = block + y * stride;
+            std::fill_n(row, x0, 0.0F);
+            std::fill(row + x0 + width, row + across.width, 0.0F);
+        }
     }
     float* spread = work.across.data();
     const int margin = 3;  // rows that interpolation reads beside the part

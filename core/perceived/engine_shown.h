@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/perceived/engine_floats.h"
 #include "core/perceived/engine_lights.h"
 #include "core/perceived/engine_simd.h"
 
@@ -19,6 +20,7 @@ struct RungRules {
     int fewestCells = 1, mostCells = 1;
     double cell_px = 0.0;
     double spread_px = 0.45;  ///< powers whose blur differs by less are one
+    double thinRim_px = 1e9;  ///< larger discs are laid over uniform pixels: a third fewer steps along their rims
     bool operator==(const RungRules&) const = default;
 };
 RungRules rulesOf(Rung rung);
@@ -40,7 +42,7 @@ public:
 
 private:
     int width_ = 0, height_ = 0, stride_ = 0;
-    std::vector<float> values_;
+    AlignedFloats values_;
 };
 
 /// A surface, or what one covers, blurred and placed in the view (or on another surface).
@@ -50,13 +52,13 @@ struct Shown {
     bool sharp = false;  ///< no blur
     bool still = false;  ///< and not moved either: copied
     Placing placing;
+    PixelShape shape = PixelShape::tent;
     int reach = 0;  ///< of the largest kernel, samples
     /// By cell of the pupil (the whole pupil first), then colour; null: sharp.
     std::vector<std::array<std::shared_ptr<const EdgeKernel>, 3>> kernels;
     std::vector<AcrossTaps> across;  ///< by column of tiles
     std::vector<DownTaps> down;      ///< by row of tiles
 
-    double radius() const { return looks[1].radius; }
     const EdgeKernel* kernel(std::size_t cell, std::size_t colour) const {
         return kernels[cell][colours == 1 ? 0 : colour].get();
     }
@@ -77,20 +79,31 @@ std::vector<PupilCell> pupilCells(int n);
 
 /// Room for one tile's work, kept by each thread.
 struct Workspace {
-    std::vector<float> mask, sums, block, across;
-    std::array<float, kTilePixels> shares{}, product{};
-    int maskStride = 0, sumStride = 0;
+    AlignedFloats mask, sums, block, across;
+    alignas(AlignedFloats::kAlignment) std::array<float, kTilePixels> shares{};
+    int sumStride = 0;
 };
 Workspace& workspace();
 
-/// Fills `work.mask` with the product of planes over a window of view pixels.
-void maskOver(Workspace& work, ViewRect window, std::span<const TilePlane* const> planes);
+/// The product of planes over a window of view pixels.
+struct Covered {
+    ViewRect window;
+    const float* mask = nullptr;  ///< row by row from the window's corner; null: all of it is `even`
+    int stride = 0;
+    float even = 1.0F;
+};
+/// Lies in `work` until the next one is made.
+Covered coveredOver(Workspace& work, ViewRect window, std::span<const TilePlane* const> planes);
+/// With a mask in any case.
+Covered maskOver(Workspace& work, ViewRect window, std::span<const TilePlane* const> planes);
 
-/// What is shown: the mask that `maskOver` made for `window`, numbers, or the product of both.
+/// Asks for numbers that are read soon: they are on their way while others are worked on.
+void fetchAhead(const PaddedPlane& plane, ViewRect window);
+
+/// What is shown: a mask, numbers, or the product of both. One of them at least.
 struct Source {
-    ViewRect window;  ///< of the mask
-    bool masked = false;
-    const PaddedPlane* values = nullptr;  ///< null: the mask alone
+    Covered covered;  ///< no mask: 1, whatever `even` says
+    const PaddedPlane* values = nullptr;
 };
 /// work.sums: running sums of the source over `part` (of shown.samples) grown by the look's reach. False: nothing
 /// there.

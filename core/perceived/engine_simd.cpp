@@ -24,56 +24,74 @@ using Floats = hn::ScalableTag<float>;
 /// Sixteen lanes, in as many vectors as that takes.
 using Lanes = hn::CappedTag<float, 16>;
 
-void prefixSumsHere(float* HWY_RESTRICT sums, int stride, int width, int rows, const float* HWY_RESTRICT mask,
-                    int maskStride, const float* HWY_RESTRICT values, int valueStride) {
+/// As many columns of vectors side by side as there are: each sum waits for the one above it, not for its neighbours.
+template <std::size_t kVectors, bool kMasked>
+HWY_INLINE void prefixColumns(float* HWY_RESTRICT to, int stride, int rows, const float* HWY_RESTRICT mask,
+                              int maskStride, const float* HWY_RESTRICT from, int valueStride) {
+    const Floats d;
+    const std::size_t n = hn::Lanes(d);
+    using V = decltype(hn::Zero(d));
+    std::array<V, kVectors> sums;
+    for (std::size_t v = 0; v < kVectors; ++v) {
+        sums[v] = hn::Zero(d);
+        hn::StoreU(sums[v], d, to + v * n);
+    }
+    for (int y = 0; y < rows; ++y) {
+        to += stride;
+        for (std::size_t v = 0; v < kVectors; ++v) {
+            const auto value = hn::LoadU(d, from + v * n);
+            sums[v] = kMasked ? hn::MulAdd(hn::LoadU(d, mask + v * n), value, sums[v]) : hn::Add(sums[v], value);
+            hn::StoreU(sums[v], d, to + v * n);
+        }
+        from += valueStride;
+        if (kMasked) mask += maskStride;
+    }
+}
+
+template <bool kMasked>
+void prefixOf(float* HWY_RESTRICT sums, int stride, int width, int rows, const float* HWY_RESTRICT mask, int maskStride,
+              const float* HWY_RESTRICT values, int valueStride) {
     const Floats d;
     const int n = static_cast<int>(hn::Lanes(d));
-    // Four columns of vectors at once: each sum waits for the one above it.
-    int x = 0;
-    for (; x + 3 * n < width; x += 4 * n) {
-        auto a = hn::Zero(d), b = a, c = a, e = a;
-        for (float* zero = sums + x; zero < sums + x + 4 * n; zero += n)
-            hn::StoreU(a, d, zero);
-        for (int y = 0; y < rows; ++y) {
-            const float* HWY_RESTRICT from = values + y * valueStride + x;
-            float* HWY_RESTRICT to = sums + (y + 1) * stride + x;
-            if (mask) {
-                const float* HWY_RESTRICT covers = mask + y * maskStride + x;
-                a = hn::MulAdd(hn::LoadU(d, covers), hn::LoadU(d, from), a);
-                b = hn::MulAdd(hn::LoadU(d, covers + n), hn::LoadU(d, from + n), b);
-                c = hn::MulAdd(hn::LoadU(d, covers + 2 * n), hn::LoadU(d, from + 2 * n), c);
-                e = hn::MulAdd(hn::LoadU(d, covers + 3 * n), hn::LoadU(d, from + 3 * n), e);
-            } else {
-                a = hn::Add(a, hn::LoadU(d, from));
-                b = hn::Add(b, hn::LoadU(d, from + n));
-                c = hn::Add(c, hn::LoadU(d, from + 2 * n));
-                e = hn::Add(e, hn::LoadU(d, from + 3 * n));
-            }
-            hn::StoreU(a, d, to);
-            hn::StoreU(b, d, to + n);
-            hn::StoreU(c, d, to + 2 * n);
-            hn::StoreU(e, d, to + 3 * n);
-        }
-    }
-    for (; x < width; x += n) {
-        auto sum = hn::Zero(d);
-        hn::StoreU(sum, d, sums + x);
-        for (int y = 0; y < rows; ++y) {
-            const auto value = hn::LoadU(d, values + y * valueStride + x);
-            sum = mask ? hn::MulAdd(hn::LoadU(d, mask + y * maskStride + x), value, sum) : hn::Add(sum, value);
-            hn::StoreU(sum, d, sums + (y + 1) * stride + x);
+    for (int x = 0; x < width;) {
+        const int left = (width - x + n - 1) / n;
+        const auto columns = [&](auto vectors) {
+            prefixColumns<vectors(), kMasked>(sums + x, stride, rows, kMasked ? mask + x : mask, maskStride, values + x,
+                                              valueStride);
+            x += static_cast<int>(vectors()) * n;
+        };
+        if (left == 5 || left > 7) {
+            columns(std::integral_constant<std::size_t, 5>{});
+        } else if (left >= 4) {
+            columns(std::integral_constant<std::size_t, 4>{});
+        } else if (left == 3) {
+            columns(std::integral_constant<std::size_t, 3>{});
+        } else if (left == 2) {
+            columns(std::integral_constant<std::size_t, 2>{});
+        } else {
+            columns(std::integral_constant<std::size_t, 1>{});
         }
     }
 }
 
+void prefixSumsHere(float* HWY_RESTRICT sums, int stride, int width, int rows, const float* HWY_RESTRICT mask,
+                    int maskStride, const float* HWY_RESTRICT values, int valueStride) {
+    if (mask) {
+        prefixOf<true>(sums, stride, width, rows, mask, maskStride, values, valueStride);
+    } else {
+        prefixOf<false>(sums, stride, width, rows, mask, maskStride, values, valueStride);
+    }
+}
+
 void productsHere(float* HWY_RESTRICT out, int stride, int width, int rows, const float* HWY_RESTRICT mask,
-                  int maskStride, const float* HWY_RESTRICT values, int valueStride) {
-    const Floats d;
+                  int maskStride, const float* HWY_RESTRICT values, int valueStride, float scale) {
+    const Lanes d;
     const int n = static_cast<int>(hn::Lanes(d));
+    const auto factor = hn::Set(d, scale);
     for (int y = 0; y < rows; ++y) {
         for (int x = 0; x < width; x += n) {
-            auto value = hn::LoadU(d, mask + y * maskStride + x);
-            if (values) value = hn::Mul(value, hn::LoadU(d, values + y * valueStride + x));
+            auto value = hn::Mul(factor, hn::LoadU(d, values + y * valueStride + x));
+            if (mask) value = hn::Mul(value, hn::LoadU(d, mask + y * maskStride + x));
             hn::StoreU(value, d, out + y * stride + x);
         }
     }
@@ -144,42 +162,101 @@ void blurBlockHere(float* HWY_RESTRICT block, int blockStride, int width, int he
     }
 }
 
-void resampleAcrossHere(float* HWY_RESTRICT out, const float* HWY_RESTRICT block, int blockStride, int rows,
-                        const AcrossTaps& taps) {
+/// A row of a tile from the sums of its phases, pixel by pixel in turn.
+template <std::size_t kCoarse, class D, class V>
+HWY_INLINE void storePhases(D d, const std::array<V, kCoarse>& sums, float* HWY_RESTRICT to) {
+    if constexpr (kCoarse == 1) hn::StoreU(sums[0], d, to);
+    if constexpr (kCoarse == 2) hn::StoreInterleaved2(sums[0], sums[1], d, to);
+    if constexpr (kCoarse == 4) hn::StoreInterleaved4(sums[0], sums[1], sums[2], sums[3], d, to);
+}
+
+template <std::size_t kCoarse, std::size_t kTaps>
+void acrossAll(float* HWY_RESTRICT out, const float* HWY_RESTRICT block, int blockStride, int rows,
+               const AcrossTaps& taps) {
     const Lanes d;
+    constexpr int kCoarseInt = static_cast<int>(kCoarse);
     const int n = static_cast<int>(hn::Lanes(d));
-    const int coarse = taps.coarse;
-    HWY_ALIGN std::array<float, kTileW> phases;
-    for (int y = 0; y < rows; ++y) {
-        const float* HWY_RESTRICT row = block + y * blockStride;
-        float* HWY_RESTRICT to = coarse == 1 ? out + y * kTileW : phases.data();
-        const int perPhase = kTileW / coarse;
-        for (const AcrossTaps::Group& group : taps.groups) {
-            const float* HWY_RESTRICT from = row + group.base;
-            const float* HWY_RESTRICT weights = taps.weights.data() + group.weights;
-            float* HWY_RESTRICT into = to + group.phase * perPhase + group.start;
-            for (int lane = 0; lane < AcrossTaps::kLanes; lane += n) {
-                auto sum = hn::Zero(d);
-                for (int t = 0; t < group.taps; ++t) {
-                    sum = hn::MulAdd(hn::LoadU(d, weights + t * AcrossTaps::kLanes + lane),
-                                     hn::LoadU(d, from + t + lane), sum);
+    const std::size_t perPhase = kTileW / AcrossTaps::kLanes / kCoarse;
+    using V = decltype(hn::Zero(d));
+    for (std::size_t group = 0; group < perPhase; ++group) {
+        for (int lane = 0; lane < AcrossTaps::kLanes; lane += n) {
+            // Weights stay in registers from row to row.
+            std::array<std::array<V, kTaps>, kCoarse> weights;
+            std::array<const float * HWY_RESTRICT, kCoarse> from;
+            for (std::size_t phase = 0; phase < kCoarse; ++phase) {
+                const AcrossTaps::Group& of = taps.groups[phase * perPhase + group];
+                from[phase] = block + of.base + lane;
+                for (std::size_t t = 0; t < kTaps; ++t) {
+                    weights[phase][t] = hn::LoadU(d, taps.weights.data() + of.weights +
+                                                         static_cast<int>(t) * AcrossTaps::kLanes + lane);
                 }
-                hn::StoreU(sum, d, into + lane);
             }
-        }
-        float* HWY_RESTRICT line = out + y * kTileW;
-        if (coarse == 2) {
-            for (int x = 0; x < kTileW / 2; ++x) {
-                line[2 * x] = phases[static_cast<std::size_t>(x)];
-                line[2 * x + 1] = phases[static_cast<std::size_t>(x + kTileW / 2)];
-            }
-        } else if (coarse == 4) {
-            for (int x = 0; x < kTileW / 4; ++x) {
-                for (int q = 0; q < 4; ++q)
-                    line[4 * x + q] = phases[static_cast<std::size_t>(x + q * kTileW / 4)];
+            float* HWY_RESTRICT to = out + kCoarseInt * (static_cast<int>(group) * AcrossTaps::kLanes + lane);
+            for (int y = 0; y < rows; ++y) {
+                std::array<V, kCoarse> sums;
+                for (std::size_t phase = 0; phase < kCoarse; ++phase) {
+                    sums[phase] = hn::Mul(weights[phase][0], hn::LoadU(d, from[phase]));
+                    for (std::size_t t = 1; t < kTaps; ++t)
+                        sums[phase] = hn::MulAdd(weights[phase][t], hn::LoadU(d, from[phase] + t), sums[phase]);
+                    from[phase] += blockStride;
+                }
+                storePhases<kCoarse>(d, sums, to);
+                to += kTileW;
             }
         }
     }
+}
+
+/// Taps as they come; so many only where a picture is made smaller by a third or more.
+template <std::size_t kCoarse>
+void acrossMany(float* HWY_RESTRICT out, const float* HWY_RESTRICT block, int blockStride, int rows,
+                const AcrossTaps& taps) {
+    const Lanes d;
+    constexpr int kCoarseInt = static_cast<int>(kCoarse);
+    const int n = static_cast<int>(hn::Lanes(d));
+    const std::size_t perPhase = kTileW / AcrossTaps::kLanes / kCoarse;
+    using V = decltype(hn::Zero(d));
+    for (std::size_t group = 0; group < perPhase; ++group) {
+        for (int lane = 0; lane < AcrossTaps::kLanes; lane += n) {
+            for (int y = 0; y < rows; ++y) {
+                std::array<V, kCoarse> sums;
+                for (std::size_t phase = 0; phase < kCoarse; ++phase) {
+                    const AcrossTaps::Group& of = taps.groups[phase * perPhase + group];
+                    const float* HWY_RESTRICT from = block + y * blockStride + of.base + lane;
+                    const float* HWY_RESTRICT weights = taps.weights.data() + of.weights + lane;
+                    sums[phase] = hn::Zero(d);
+                    for (int t = 0; t < taps.taps; ++t) {
+                        sums[phase] = hn::MulAdd(hn::LoadU(d, weights + t * AcrossTaps::kLanes), hn::LoadU(d, from + t),
+                                                 sums[phase]);
+                    }
+                }
+                storePhases<kCoarse>(
+                    d, sums, out + y * kTileW + kCoarseInt * (static_cast<int>(group) * AcrossTaps::kLanes + lane));
+            }
+        }
+    }
+}
+
+template <std::size_t kCoarse>
+void acrossOf(float* HWY_RESTRICT out, const float* HWY_RESTRICT block, int blockStride, int rows,
+              const AcrossTaps& taps) {
+    switch (taps.taps) {
+    case 4:
+        return acrossAll<kCoarse, 4>(out, block, blockStride, rows, taps);
+    case 5:
+        return acrossAll<kCoarse, 5>(out, block, blockStride, rows, taps);
+    case 6:
+        return acrossAll<kCoarse, 6>(out, block, blockStride, rows, taps);
+    default:
+        return acrossMany<kCoarse>(out, block, blockStride, rows, taps);
+    }
+}
+
+void resampleAcrossHere(float* HWY_RESTRICT out, const float* HWY_RESTRICT block, int blockStride, int rows,
+                        const AcrossTaps& taps) {
+    if (taps.coarse == 1) return acrossOf<1>(out, block, blockStride, rows, taps);
+    if (taps.coarse == 2) return acrossOf<2>(out, block, blockStride, rows, taps);
+    return acrossOf<4>(out, block, blockStride, rows, taps);
 }
 
 void resampleDownAddHere(float* HWY_RESTRICT into, const float* HWY_RESTRICT across, int firstRow, int lastRow,
@@ -208,14 +285,14 @@ void resampleDownAddHere(float* HWY_RESTRICT into, const float* HWY_RESTRICT acr
 }
 
 void addTileHere(float* HWY_RESTRICT into, const float* HWY_RESTRICT shares, const float* HWY_RESTRICT mask,
-                 const float* HWY_RESTRICT values, int valueStride, float weight) {
+                 int maskStride, const float* HWY_RESTRICT values, int valueStride, float weight) {
     const Floats d;
     const int n = static_cast<int>(hn::Lanes(d));
     const auto w = hn::Set(d, weight);
     for (int y = 0; y < kTileH; ++y) {
         for (int x = 0; x < kTileW; x += n) {
             const int i = y * kTileW + x;
-            auto light = hn::Mul(w, hn::LoadU(d, mask + i));
+            auto light = mask ? hn::Mul(w, hn::LoadU(d, mask + y * maskStride + x)) : w;
             if (shares) light = hn::Mul(light, hn::LoadU(d, shares + i));
             hn::StoreU(hn::MulAdd(light, hn::LoadU(d, values + y * valueStride + x), hn::LoadU(d, into + i)), d,
                        into + i);
@@ -223,61 +300,153 @@ void addTileHere(float* HWY_RESTRICT into, const float* HWY_RESTRICT shares, con
     }
 }
 
-void averageTileHere(float* HWY_RESTRICT out, int outStride, int coarse, const float* HWY_RESTRICT mask, int maskStride,
-                     const float* HWY_RESTRICT values, int valueStride, const Averaging& averaging) {
+/// Columns of mask * values averaged downwards, rows kept in registers: each is read once.
+template <int kCoarse, class Row>
+HWY_INLINE void averageDown(float* HWY_RESTRICT lines, int stride, const Row& row) {
+    const Lanes d;
+    const auto outer = hn::Set(d, kOuterTap), inner = hn::Set(d, kInnerTap);
+    const auto half = [&](auto a, auto b, auto c, auto e) {
+        return hn::MulAdd(inner, hn::Add(b, c), hn::Mul(outer, hn::Add(a, e)));
+    };
+    auto a = row(0), b = row(1);
+    int next = 2;
+    const auto halved = [&] {
+        const auto c = row(next), e = row(next + 1);
+        next += 2;
+        const auto sum = half(a, b, c, e);
+        a = c;
+        b = e;
+        return sum;
+    };
+    if constexpr (kCoarse == 2) {
+        for (int y = 0; y < kTileH / 2; ++y)
+            hn::StoreU(halved(), d, lines + y * stride);
+    } else {
+        auto p = halved(), q = halved();
+        for (int y = 0; y < kTileH / 4; ++y) {
+            const auto r = halved(), s = halved();
+            hn::StoreU(half(p, q, r, s), d, lines + y * stride);
+            p = r;
+            q = s;
+        }
+    }
+}
+
+/// to = a line averaged to half its width: `count` numbers, rounded up to whole vectors.
+HWY_INLINE void averageAcross(float* HWY_RESTRICT to, const float* HWY_RESTRICT line, int count, float scale) {
     const Lanes d;
     const int n = static_cast<int>(hn::Lanes(d));
-    const int lead = averaging.lead, taps = static_cast<int>(averaging.taps.size());
-    const int rows = kTileH + 2 * lead;
-    constexpr int kStride = kTileW + 16 + kOverrun;  // 70 pixels are read, and whole vectors
-    HWY_ALIGN std::array<float, kStride*(kTileH + 6)> products;
-    // All rows down before any is read across: a load that straddles fresh stores has to wait for them.
-    HWY_ALIGN std::array<float, kStride*(kTileH / 2)> lines;
-    for (int y = 0; y < rows; ++y) {
-        float* HWY_RESTRICT to = products.data() + y * kStride;
-        const float* HWY_RESTRICT covers = mask + y * maskStride;
-        for (int x = 0; x < kTileW + 16; x += n) {
-            auto value = hn::LoadU(d, covers + x);
-            if (values) value = hn::Mul(value, hn::LoadU(d, values + y * valueStride + x));
-            hn::StoreU(value, d, to + x);
+    const auto outer = hn::Set(d, kOuterTap * scale), inner = hn::Set(d, kInnerTap * scale);
+    for (int x = 0; x < count; x += n) {
+        auto a = hn::Zero(d), b = a, c = a, e = a;
+        hn::LoadInterleaved2(d, line + 2 * x, a, b);
+        hn::LoadInterleaved2(d, line + 2 * x + 2, c, e);
+        hn::StoreU(hn::MulAdd(inner, hn::Add(b, c), hn::Mul(outer, hn::Add(a, e))), d, to + x);
+    }
+}
+
+template <int kCoarse>
+void averageBy(float* HWY_RESTRICT out, int outStride, const float* HWY_RESTRICT mask, int maskStride,
+               const float* HWY_RESTRICT values, int valueStride, float scale) {
+    const Lanes d;
+    const int n = static_cast<int>(hn::Lanes(d));
+    constexpr int kRead = kTileW + 16, kStride = kRead + 2 * kOverrun;
+    HWY_ALIGN std::array<float, kStride*(kTileH / kCoarse)> lines;
+    for (int x = 0; x < kRead; x += n) {
+        const auto maskAt = [&](int y) { return hn::LoadU(d, mask + y * maskStride + x); };
+        const auto valueAt = [&](int y) { return hn::LoadU(d, values + y * valueStride + x); };
+        if (!mask) {
+            averageDown<kCoarse>(lines.data() + x, kStride, valueAt);
+        } else if (!values) {
+            averageDown<kCoarse>(lines.data() + x, kStride, maskAt);
+        } else {
+            averageDown<kCoarse>(lines.data() + x, kStride, [&](int y) { return hn::Mul(maskAt(y), valueAt(y)); });
         }
     }
-    for (int y = 0; y < kTileH / coarse; ++y) {
-        const float* HWY_RESTRICT from = products.data() + y * coarse * kStride;
-        for (int x = 0; x < kTileW + 16; x += n) {
-            auto sum = hn::Zero(d);
-            for (int t = 0; t < taps; ++t) {
-                sum = hn::MulAdd(hn::Set(d, averaging.taps[static_cast<std::size_t>(t)]),
-                                 hn::LoadU(d, from + t * kStride + x), sum);
-            }
-            hn::StoreU(sum, d, lines.data() + y * kStride + x);
-        }
-    }
-    for (int y = 0; y < kTileH / coarse; ++y) {
+    for (int y = 0; y < kTileH / kCoarse; ++y) {
         const float* HWY_RESTRICT line = lines.data() + y * kStride;
         float* HWY_RESTRICT to = out + y * outStride;
-        for (int x = 0; x < kTileW / coarse; x += n) {
-            auto sum = hn::Zero(d);
-            // Every second (fourth) pixel by de-interleaving: taps 0..1 (0..3) share a load.
-            for (int t = 0; t < taps; t += coarse) {
-                auto a = hn::Zero(d), b = a, c = a, e = a;
-                if (coarse == 2) {
-                    hn::LoadInterleaved2(d, line + 2 * x + t, a, b);
-                } else {
-                    hn::LoadInterleaved4(d, line + 4 * x + t, a, b, c, e);
-                }
-                const auto weight = [&](int i) {
-                    return hn::Set(d, t + i < taps ? averaging.taps[static_cast<std::size_t>(t + i)] : 0.0F);
-                };
-                sum = hn::MulAdd(weight(0), a, sum);
-                sum = hn::MulAdd(weight(1), b, sum);
-                if (coarse == 4) {
-                    sum = hn::MulAdd(weight(2), c, sum);
-                    sum = hn::MulAdd(weight(3), e, sum);
-                }
-            }
-            hn::StoreU(sum, d, to + x);
+        if constexpr (kCoarse == 2) {
+            averageAcross(to, line, kTileW / 2, scale);
+        } else {
+            HWY_ALIGN std::array<float, kTileW / 2 + 3 * kOverrun> halves;
+            averageAcross(halves.data(), line, kTileW / 2 + 2, 1.0F);
+            averageAcross(to, halves.data(), kTileW / 4, scale);
         }
+    }
+}
+
+void averageTileHere(float* HWY_RESTRICT out, int outStride, int coarse, const float* HWY_RESTRICT mask, int maskStride,
+                     const float* HWY_RESTRICT values, int valueStride, float scale) {
+    if (coarse == 2) return averageBy<2>(out, outStride, mask, maskStride, values, valueStride, scale);
+    averageBy<4>(out, outStride, mask, maskStride, values, valueStride, scale);
+}
+
+void keepTileHere(float* HWY_RESTRICT kept, const float* HWY_RESTRICT values, TileBits& bits) {
+    const Lanes d;
+    const int n = static_cast<int>(hn::Lanes(d));
+    const auto zero = hn::Zero(d), first = hn::Set(d, values[0]);
+    auto uneven = zero;
+    const auto ofLanes = [&](auto mask) {
+        std::uint64_t one = 0;
+        hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&one));
+        return one;
+    };
+    for (std::size_t y = 0; y < kTileH; ++y) {
+        std::uint64_t lit = 0, changed = 0;
+        for (int x = 0; x < kTileW; x += n) {
+            const int i = static_cast<int>(y) * kTileW + x;
+            const auto now = hn::LoadU(d, values + i);
+            lit |= ofLanes(hn::Gt(now, zero)) << x;
+            changed |= ofLanes(hn::Ne(now, hn::LoadU(d, kept + i))) << x;
+            uneven = hn::Max(uneven, hn::Abs(hn::Sub(now, first)));
+            hn::StoreU(now, d, kept + i);
+        }
+        bits.lit[y] = lit;
+        bits.changed[y] = changed;
+    }
+    bits.even = hn::AllTrue(d, hn::Eq(uneven, zero));
+}
+
+void fromBytesHere(float* HWY_RESTRICT out, const std::uint8_t* HWY_RESTRICT bytes, int count, float unit) {
+    const Lanes d;
+    const hn::Rebind<std::int32_t, decltype(d)> ints;
+    const hn::Rebind<std::uint8_t, decltype(d)> narrow;
+    const int n = static_cast<int>(hn::Lanes(d));
+    const auto scale = hn::Set(d, unit);
+    int i = 0;
+    for (; i + n <= count; i += n) {
+        const auto wide = hn::PromoteTo(ints, hn::LoadU(narrow, bytes + i));
+        hn::StoreU(hn::Mul(hn::ConvertTo(d, wide), scale), d, out + i);
+    }
+    for (; i < count; ++i)
+        out[i] = static_cast<float>(bytes[i]) * unit;
+}
+
+void coverageHere(float* HWY_RESTRICT out, int outStride, int width, int rows,
+                  const std::array<const float*, 3>& inTiles, float scale) {
+    const Lanes d;
+    const int n = static_cast<int>(hn::Lanes(d));
+    const float *HWY_RESTRICT a = inTiles[0], *HWY_RESTRICT b = inTiles[1], *HWY_RESTRICT c = inTiles[2];
+    for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < width; x += n) {
+            const auto within = hn::FirstN(d, static_cast<std::size_t>(std::min(n, width - x)));
+            auto value = hn::Set(d, scale);
+            const int i = y * kTileW + x;
+            if (a) value = hn::Mul(value, hn::MaskedLoad(within, d, a + i));
+            if (b) value = hn::Mul(value, hn::MaskedLoad(within, d, b + i));
+            if (c) value = hn::Mul(value, hn::MaskedLoad(within, d, c + i));
+            hn::BlendedStore(value, within, d, out + y * outStride + x);
+        }
+    }
+}
+
+void shareHere(float* HWY_RESTRICT into, const float* HWY_RESTRICT by, bool first) {
+    const Floats d;
+    const int n = static_cast<int>(hn::Lanes(d));
+    for (int i = 0; i < kTilePixels; i += n) {
+        const auto value = hn::LoadU(d, by + i);
+        hn::StoreU(first ? value : hn::Mul(value, hn::LoadU(d, into + i)), d, into + i);
     }
 }
 
@@ -294,14 +463,18 @@ HWY_EXPORT(resampleAcrossHere);
 HWY_EXPORT(resampleDownAddHere);
 HWY_EXPORT(addTileHere);
 HWY_EXPORT(averageTileHere);
+HWY_EXPORT(keepTileHere);
+HWY_EXPORT(fromBytesHere);
+HWY_EXPORT(coverageHere);
+HWY_EXPORT(shareHere);
 
 void prefixSums(float* sums, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
                 int valueStride) {
     HWY_DYNAMIC_DISPATCH(prefixSumsHere)(sums, stride, width, rows, mask, maskStride, values, valueStride);
 }
 void products(float* out, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
-              int valueStride) {
-    HWY_DYNAMIC_DISPATCH(productsHere)(out, stride, width, rows, mask, maskStride, values, valueStride);
+              int valueStride, float scale) {
+    HWY_DYNAMIC_DISPATCH(productsHere)(out, stride, width, rows, mask, maskStride, values, valueStride, scale);
 }
 void blurBlock(float* block, int blockStride, int width, int height, const float* sums, int sumStride,
                const EdgeKernel& kernel) {
@@ -314,13 +487,25 @@ void resampleDownAdd(float* into, const float* across, int firstRow, int lastRow
                      const float* shares, float weight) {
     HWY_DYNAMIC_DISPATCH(resampleDownAddHere)(into, across, firstRow, lastRow, taps, shares, weight);
 }
-void addTile(float* into, const float* shares, const float* mask, const float* values, int valueStride, float weight) {
-    HWY_DYNAMIC_DISPATCH(addTileHere)(into, shares, mask, values, valueStride, weight);
+void addTile(float* into, const float* shares, const float* mask, int maskStride, const float* values, int valueStride,
+             float weight) {
+    HWY_DYNAMIC_DISPATCH(addTileHere)(into, shares, mask, maskStride, values, valueStride, weight);
 }
 void averageTile(float* out, int outStride, int coarse, const float* mask, int maskStride, const float* values,
-                 int valueStride, const Averaging& averaging) {
-    HWY_DYNAMIC_DISPATCH(averageTileHere)
-    (out, outStride, coarse, mask, maskStride, values, valueStride, averaging);
+                 int valueStride, float scale) {
+    HWY_DYNAMIC_DISPATCH(averageTileHere)(out, outStride, coarse, mask, maskStride, values, valueStride, scale);
 }
+TileBits keepTile(float* kept, const float* values) {
+    TileBits bits;
+    HWY_DYNAMIC_DISPATCH(keepTileHere)(kept, values, bits);
+    return bits;
+}
+void fromBytes(float* out, const std::uint8_t* bytes, int count, float unit) {
+    HWY_DYNAMIC_DISPATCH(fromBytesHere)(out, bytes, count, unit);
+}
+void coverage(float* out, int outStride, int width, int rows, const std::array<const float*, 3>& inTiles, float scale) {
+    HWY_DYNAMIC_DISPATCH(coverageHere)(out, outStride, width, rows, inTiles, scale);
+}
+void share(float* into, const float* by, bool first) { HWY_DYNAMIC_DISPATCH(shareHere)(into, by, first); }
 }  // namespace ilf::view
 #endif

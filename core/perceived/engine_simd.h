@@ -1,6 +1,9 @@
 // The loops of the engine that touch every pixel, compiled for several processors and chosen at run time.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "core/perceived/engine_kernel.h"
 #include "core/perceived/engine_resample.h"
 
@@ -9,14 +12,33 @@ namespace ilf::view {
 /// Numbers that may be read or written beyond the end of a row or block by any function here.
 inline constexpr int kOverrun = 32;
 
+/// A bit for each pixel of a tile's rows.
+struct TileBits {
+    std::array<std::uint64_t, kTileH> lit{};      ///< above 0
+    std::array<std::uint64_t, kTileH> changed{};  ///< other than before
+    bool even = false;                            ///< all of the tile is one number
+};
+/// Takes a tile's numbers over into `kept`, and tells what they are.
+TileBits keepTile(float* kept, const float* values);
+
+/// out = unit * bytes.
+void fromBytes(float* out, const std::uint8_t* bytes, int count, float unit);
+
+/// out (row by row) = scale * the product of up to three blocks that lie in tiles; null ones are 1. Writes `width`
+/// numbers a row and none beyond.
+void coverage(float* out, int outStride, int width, int rows, const std::array<const float*, 3>& inTiles, float scale);
+
+/// into *= by over one tile, or into = by if `first`.
+void share(float* into, const float* by, bool first);
+
 /// sums[y + 1] = sums[y] + mask[y] * values[y] for `rows` rows of `width` numbers; row 0 is set to 0. A null `mask`
 /// is 1.
 void prefixSums(float* sums, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
                 int valueStride);
 
-/// out = mask * values, row by row; null `values` are 1.
+/// out = scale * mask * values, row by row. A null `mask` is 1.
 void products(float* out, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
-              int valueStride);
+              int valueStride, float scale = 1.0F);
 
 /// `block` (`width` x `height`, height rounded up to 4) from the running sums of its window.
 void blurBlock(float* block, int blockStride, int width, int height, const float* sums, int sumStride,
@@ -30,12 +52,13 @@ void resampleAcross(float* out, const float* block, int blockStride, int rows, c
 void resampleDownAdd(float* into, const float* across, int firstRow, int lastRow, const DownTaps& taps,
                      const float* shares, float weight);
 
-/// into += weight * shares * mask * values over one tile; null `shares` is 1.
-void addTile(float* into, const float* shares, const float* mask, const float* values, int valueStride, float weight);
+/// into += weight * shares * mask * values over one tile; null `shares` and `mask` are 1.
+void addTile(float* into, const float* shares, const float* mask, int maskStride, const float* values, int valueStride,
+             float weight);
 
-/// Averages of one tile: out (kTileW / coarse x kTileH / coarse) from mask * values, which start averaging.lead pixels
-/// left of and above the tile. Null `values` are 1. `coarse` is 2 or 4.
+/// Averages of one tile: out (kTileW / coarse x kTileH / coarse) = scale * mask * values averaged; both start
+/// averagingLead(coarse) pixels left of and above the tile. One of them may be null: it is 1. `coarse` is 2 or 4.
 void averageTile(float* out, int outStride, int coarse, const float* mask, int maskStride, const float* values,
-                 int valueStride, const Averaging& averaging);
+                 int valueStride, float scale);
 
 }  // namespace ilf::view

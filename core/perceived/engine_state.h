@@ -5,9 +5,14 @@
 
 #include "core/perceived/engine_raster.h"
 #include "core/perceived/engine_shown.h"
+#include "core/perceived/engine_spare.h"
 #include "core/perceived/setting.h"
 
 namespace ilf::view {
+
+/// Looks are averaged over so many pixels, and their averages kept in this order.
+inline constexpr std::array<int, 2> kCoarse{2, 4};
+constexpr std::size_t averagedAt(int coarse) { return coarse == 2 ? 0 : 1; }
 
 /// A surface of constant distance.
 struct EngineSurface {
@@ -15,7 +20,7 @@ struct EngineSurface {
     Metre distance;
     bool sloped = false;
     TilePlane alpha;
-    std::array<PaddedPlane, 2> averaged;  ///< alpha over 2 x 2 and 4 x 4 pixels, if anything asks for it
+    std::array<PaddedPlane, 2> averaged;  ///< alpha, by averagedAt, if anything asks for it
     std::vector<ViewRect> changed;        ///< of alpha, since the view before
 };
 
@@ -56,11 +61,12 @@ struct EngineScene {
     Size size;
     RungRules rules;
     std::array<PaddedPlane, 3> albedo;
-    std::vector<EngineSurface> surfaces;  ///< nearest first
+    std::array<std::array<PaddedPlane, 3>, 2> averagedAlbedo;  ///< by averagedAt, if anything asks for it
+    std::vector<EngineSurface> surfaces;                       ///< nearest first
     std::vector<TilePlane> lightOfLevel;
     std::vector<std::vector<ViewRect>> changedLight;  ///< by level
     std::vector<EngineLight> lights;
-    std::array<std::vector<SpareAverages>, 2> spareAverages;  ///< over 2 x 2 and 4 x 4 pixels
+    std::array<std::vector<SpareAverages>, 2> spareAverages;  ///< by averagedAt
     std::vector<TilePlane> spareShares;
     std::vector<PupilCell> cells;  ///< empty: the whole pupil at once
     bool lensField = false;
@@ -70,8 +76,11 @@ struct EngineScene {
     std::vector<const TilePlane*> planesOf(const EngineLight& light, std::size_t surface) const;
 };
 
+/// What a surface covers of `part` (of shown.samples), all of it that `shown` reaches. May lie in `work`.
+Source coverageOf(Workspace& work, const EngineSurface& surface, const Shown& shown, ViewRect part);
+
 /// Works out one tile. Adds to `counters` what it skipped.
-Box<ViewTile> tileSeen(const EngineScene& scene, int tile, ViewCounters& counters);
+Box<ViewTile> tileSeen(const EngineScene& scene, int tile, SpareTiles& spare, ViewCounters& counters);
 
 /// Works out `visible`, `averaged` and `passing` where what they are made of changed; everywhere if `all`.
 void updateVisibility(EngineScene& scene, bool all, int threads);

@@ -76,8 +76,7 @@ private:
         std::array<float, kTilePixels> slope;
         bool sloped = false;
         const auto hide = [&](const float* left) {
-            for (std::size_t i = 0; i < kTilePixels; ++i)
-                work_.shares[i] = shared ? work_.shares[i] * left[i] : left[i];
+            share(work_.shares.data(), left, !shared);
             shared = true;
         };
         for (const int j : look.passedBy) {
@@ -121,26 +120,23 @@ private:
         const Shown& shown = look.shown;
         ++(shown.sharp ? counters_.sharp : counters_.blurred);
         if (shown.still) {
-            maskOver(work_, rect_, planes);
-            // The mask's rows are padded: addTile wants them packed.
-            for (int y = 0; y < kTileH; ++y)
-                std::copy_n(work_.mask.data() + y * work_.maskStride, kTileW, work_.product.data() + y * kTileW);
+            const Covered covered = coveredOver(work_, rect_, planes);
             for (std::size_t c = 0; c < 3; ++c) {
-                addTile(plane(c), cells.front().shares, work_.product.data(), scene_.albedo[c].at(rect_.x0, rect_.y0),
-                        scene_.albedo[c].stride(), cells.front().weight);
+                addTile(plane(c), cells.front().shares, covered.mask, covered.stride,
+                        scene_.albedo[c].at(rect_.x0, rect_.y0), scene_.albedo[c].stride(),
+                        cells.front().weight * (covered.mask ? 1.0F : covered.even));
             }
             return;
         }
         const bool coarse = shown.placing.coarse != 1;
-        const ViewRect window = part.grown(shown.reach);
-        if (!coarse) maskOver(work_, window, planes);
+        const Covered covered = coarse ? Covered{} : coveredOver(work_, part.grown(shown.reach), planes);
+        const float even = covered.mask ? 1.0F : covered.even;
         for (std::size_t c = 0; c < 3; ++c) {
-            const Source source =
-                coarse ? Source{{}, false, &look.averaged[c]} : Source{window, true, &scene_.albedo[c]};
-            if (!sumSource(work_, shown, part, source)) continue;
+            if (c + 1 < 3) fetchAhead(coarse ? look.averaged[c + 1] : scene_.albedo[c + 1], part.grown(shown.reach));
+            if (!sumSource(work_, shown, part, {covered, coarse ? &look.averaged[c] : &scene_.albedo[c]})) continue;
             for (const CellShare& one : cells) {
                 addSummed(plane(c), work_, shown, shown.kernel(one.cell, c), scene_.tiles, tile_, part, one.shares,
-                          one.weight);
+                          even * one.weight);
             }
         }
     }
@@ -155,14 +151,9 @@ private:
         CellPlanes shares(scene_.cells.size());
         std::vector<CellShare> cells;
         for (std::size_t cell = 0; cell < scene_.cells.size(); ++cell) {
-            const float* first = (*passing.front())[cell].data();
-            for (std::size_t i = 0; i < kTilePixels; ++i)
-                shares[cell][i] = shared ? work_.shares[i] * first[i] : first[i];
-            for (std::size_t n = 1; n < passing.size(); ++n) {
-                const float* next = (*passing[n])[cell].data();
-                for (std::size_t i = 0; i < kTilePixels; ++i)
-                    shares[cell][i] *= next[i];
-            }
+            if (shared) shares[cell] = work_.shares;
+            for (std::size_t n = 0; n < passing.size(); ++n)
+                share(shares[cell].data(), (*passing[n])[cell].data(), !shared && n == 0);
             const double area = look.shown.kernel(cell + 1, 1)->area;
             cells.push_back({shares[cell].data(), weight * static_cast<float>(area), cell + 1});
         }
@@ -180,14 +171,10 @@ private:
         CellPlanes made(scene_.cells.size());
         const std::array<const TilePlane*, 1> alpha{&surface.alpha};
         const ViewRect lit = litBox(shown.pixels(scene_.tiles, tile_), alpha);
-        const ViewRect part = shown.litSamples(scene_.tiles, tile_, lit), window = part.grown(shown.reach);
+        const ViewRect part = shown.litSamples(scene_.tiles, tile_, lit);
         for (auto& passing : made)
             passing.fill(1.0F);
-        const int coarse = shown.placing.coarse;
-        if (coarse == 1) maskOver(work_, window, alpha);
-        const Source source =
-            coarse == 1 ? Source{window, true, nullptr} : Source{{}, false, &surface.averaged[coarse == 2 ? 0 : 1]};
-        if (!part.empty() && sumSource(work_, shown, part, source)) {
+        if (!part.empty() && sumSource(work_, shown, part, coverageOf(work_, surface, shown, part))) {
             for (std::size_t cell = 0; cell < made.size(); ++cell) {
                 addSummed(made[cell].data(), work_, shown, shown.kernel(cell + 1, 1), scene_.tiles, tile_, part,
                           nullptr, -1.0F);
@@ -218,8 +205,7 @@ private:
         std::array<float, kTilePixels> lens;
         if (!lensShares(look.shown.looks[1], lens)) return true;
         if (std::ranges::all_of(lens, [](float share) { return share == 0.0F; })) return false;
-        for (std::size_t i = 0; i < kTilePixels; ++i)
-            work_.shares[i] = shared ? work_.shares[i] * lens[i] : lens[i];
+        share(work_.shares.data(), lens.data(), !shared);
         shared = true;
         return true;
     }
@@ -245,7 +231,7 @@ private:
             if (!rim) continue;
             any_ = true;
             for (std::size_t c = 0; c < 3; ++c) {
-                addTile(plane(c), nullptr, mask.data(), scene_.albedo[c].at(rect_.x0, rect_.y0),
+                addTile(plane(c), nullptr, mask.data(), kTileW, scene_.albedo[c].at(rect_.x0, rect_.y0),
                         scene_.albedo[c].stride(), 1.0F);
             }
         }
@@ -286,18 +272,17 @@ std::vector<const TilePlane*> EngineScene::planesOf(const EngineLight& light, st
     return planes;
 }
 
-Box<ViewTile> tileSeen(const EngineScene& scene, int tile, ViewCounters& counters) {
+Box<ViewTile> tileSeen(const EngineScene& scene, int tile, SpareTiles& spare, ViewCounters& counters) {
     static const Box<ViewTile> dark{ViewTile{}};
-    thread_local ViewTile seen;
-    seen.v.fill(0.0F);
-    TileWork work(scene, tile, seen, counters);
+    auto seen = spare.take();
+    seen->v.fill(0.0F);
+    TileWork work(scene, tile, *seen, counters);
     work.run();
-    if (!work.any()) {
-        ++counters.dark;
-        return dark;
-    }
-    trim(seen, scene.tiles.rect(tile), scene.size);
-    return Box<ViewTile>(seen);
+    trim(*seen, scene.tiles.rect(tile), scene.size);
+    Box<ViewTile> boxed = spare.boxed(std::move(seen));
+    if (work.any()) return boxed;
+    ++counters.dark;
+    return dark;
 }
 
 }  // namespace ilf::view

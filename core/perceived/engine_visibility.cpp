@@ -40,7 +40,6 @@ bool takeAway(const EngineScene& scene, const EngineSurface& surface, const Show
               std::array<float, kTilePixels>& into) {
     Workspace& work = workspace();
     const std::array<const TilePlane*, 1> alpha{&surface.alpha};
-    const int coarse = shown.placing.coarse;
     const ViewRect pixels = shown.pixels(scene.tiles, tile), lit = litBox(pixels, alpha);
     const ViewRect part = shown.litSamples(scene.tiles, tile, lit);
     if (lit.empty() || part.empty()) return false;
@@ -50,19 +49,15 @@ bool takeAway(const EngineScene& scene, const EngineSurface& surface, const Show
         return true;
     }
     if (shown.still) {
-        maskOver(work, scene.tiles.rect(tile), alpha);
+        const Covered covered = coveredOver(work, scene.tiles.rect(tile), alpha);
         for (int y = 0; y < kTileH; ++y) {
             for (int x = 0; x < kTileW; ++x)
                 into[static_cast<std::size_t>(y * kTileW + x)] -=
-                    work.mask[static_cast<std::size_t>(y * work.maskStride + x)];
+                    covered.mask ? covered.mask[y * covered.stride + x] : covered.even;
         }
         return true;
     }
-    const ViewRect window = part.grown(shown.reach);
-    if (coarse == 1) maskOver(work, window, alpha);
-    const Source source =
-        coarse == 1 ? Source{window, true, nullptr} : Source{{}, false, &surface.averaged[coarse == 2 ? 0 : 1]};
-    if (!sumSource(work, shown, part, source)) return false;
+    if (!sumSource(work, shown, part, coverageOf(work, surface, shown, part))) return false;
     addSummed(into.data(), work, shown, shown.kernel(0, 1), scene.tiles, tile, part, nullptr, -1.0F);
     return true;
 }
@@ -74,18 +69,21 @@ void settle(std::array<float, kTilePixels>& shares) {
         share = share < kNone ? 0.0F : share > 1.0F - kNone ? 1.0F : share;
 }
 
-/// One tile of averages of mask * values; the mask as maskOver made it for the tile grown by the averaging's lead.
-void averageInto(PaddedPlane& into, int coarse, ViewRect rect, const PaddedPlane* values) {
-    const Averaging& kernel = averaging(coarse);
-    const ViewRect window = rect.grown(kernel.lead);
-    const Workspace& work = workspace();
-    averageTile(into.at(rect.x0 / coarse, rect.y0 / coarse), into.stride(), coarse, work.mask.data(), work.maskStride,
-                values ? values->at(window.x0, window.y0) : nullptr, values ? values->stride() : 0, kernel);
+/// One tile of averages of what `planes` cover, or of `values` under it; dark where nothing does.
+void averageInto(PaddedPlane& into, int coarse, ViewRect rect, const Covered& covered, const PaddedPlane* values) {
+    averageTile(into.at(rect.x0 / coarse, rect.y0 / coarse), into.stride(), coarse, covered.mask, covered.stride,
+                values ? values->at(covered.window.x0, covered.window.y0) : nullptr, values ? values->stride() : 0,
+                covered.mask ? 1.0F : covered.even);
 }
 
-void darken(PaddedPlane& into, int coarse, ViewRect rect) {
+void fill(PaddedPlane& into, int coarse, ViewRect rect, float value) {
     for (int y = 0; y < kTileH / coarse; ++y)
-        std::fill_n(into.at(rect.x0 / coarse, rect.y0 / coarse + y), kTileW / coarse, 0.0F);
+        std::fill_n(into.at(rect.x0 / coarse, rect.y0 / coarse + y), kTileW / coarse, value);
+}
+
+void copyScaled(PaddedPlane& into, const PaddedPlane& from, int coarse, ViewRect rect, float scale) {
+    products(into.at(rect.x0 / coarse, rect.y0 / coarse), into.stride(), kTileW / coarse, kTileH / coarse, nullptr, 0,
+             from.at(rect.x0 / coarse, rect.y0 / coarse), from.stride(), scale);
 }
 
 PaddedPlane averagedPlane(TileCount tiles, int coarse) {
@@ -102,7 +100,7 @@ void updateAveragedAlpha(EngineScene& scene, bool all, int threads) {
             Marks marks(scene.tiles);
             if (all) marks.markAll();
             for (const ViewRect& rect : surface.changed)
-                marks.mark(rect.grown(7));
+                marks.mark(rect.grown(averagingLead(kCoarse[which])));
             marks.each([&](int tile) { jobs.push_back({which, k, tile}); });
         }
     }
@@ -110,27 +108,65 @@ void updateAveragedAlpha(EngineScene& scene, bool all, int threads) {
         const Job& job = jobs[static_cast<std::size_t>(i)];
         EngineSurface& surface = scene.surfaces[job.surface];
         const std::array<const TilePlane*, 1> alpha{&surface.alpha};
-        const int coarse = job.light == 0 ? 2 : 4;
-        const ViewRect rect = scene.tiles.rect(job.tile), window = rect.grown(averaging(coarse).lead);
-        if (litBox(window, alpha).empty()) return darken(surface.averaged[job.light], coarse, rect);
-        maskOver(workspace(), window, alpha);
-        averageInto(surface.averaged[job.light], coarse, rect, nullptr);
+        const int coarse = kCoarse[job.light];
+        const ViewRect rect = scene.tiles.rect(job.tile), window = rect.grown(averagingLead(coarse));
+        if (litBox(window, alpha).empty()) return fill(surface.averaged[job.light], coarse, rect, 0.0F);
+        const Covered covered = coveredOver(workspace(), window, alpha);
+        if (!covered.mask) return fill(surface.averaged[job.light], coarse, rect, covered.even);
+        averageInto(surface.averaged[job.light], coarse, rect, covered, nullptr);
     });
+}
+
+/// The picture itself over 2 x 2 and 4 x 4 pixels, once, for the looks that ask for it.
+void averagePicture(EngineScene& scene, int threads) {
+    std::array<bool, 2> asked{};
+    for (const EngineLight& light : scene.lights) {
+        for (const EngineLook& look : light.looks) {
+            if (look.takesPart && look.shown.placing.coarse != 1) asked[averagedAt(look.shown.placing.coarse)] = true;
+        }
+    }
+    for (std::size_t which = 0; which < 2; ++which) {
+        auto& planes = scene.averagedAlbedo[which];
+        if (!asked[which] || !planes[0].empty()) continue;
+        const int coarse = kCoarse[which];
+        planes.fill(averagedPlane(scene.tiles, coarse));
+        shareOut(scene.tiles.count(), threads, [&](int tile) {
+            const ViewRect rect = scene.tiles.rect(tile);
+            const Covered covered{rect.grown(averagingLead(coarse)), nullptr, 0, 1.0F};
+            for (std::size_t c = 0; c < 3; ++c)
+                averageInto(planes[c], coarse, rect, covered, &scene.albedo[c]);
+        });
+    }
 }
 
 }  // namespace
 
+Source coverageOf(Workspace& work, const EngineSurface& surface, const Shown& shown, ViewRect part) {
+    const int coarse = shown.placing.coarse;
+    if (coarse != 1) return {{}, &surface.averaged[averagedAt(coarse)]};
+    const std::array<const TilePlane*, 1> alpha{&surface.alpha};
+    return {maskOver(work, part.grown(shown.reach), alpha), nullptr};
+}
+
 void shareOut(int count, int threads, const std::function<void(int)>& work) {
-    if (threads > 1 && count > 2) return parallelFor(count, work);
-    for (int i = 0; i < count; ++i)
-        work(i);
+    // Runs of neighbours: what they read lies close together, and each thread keeps its own near.
+    const int run = threads > 1 && count > 2 ? std::clamp(count / 16, 1, 16) : count;
+    const auto doRun = [&](int n) {
+        for (int i = n * run; i < std::min(count, (n + 1) * run); ++i)
+            work(i);
+    };
+    if (run == count) {
+        doRun(0);
+    } else {
+        parallelFor((count + run - 1) / run, doRun);
+    }
 }
 
 void updateVisibility(EngineScene& scene, bool all, int threads) {
     if (all) {
         std::vector<std::array<bool, 2>> asked(scene.surfaces.size());
         const auto ask = [&](const Shown& shown, std::size_t surface) {
-            if (shown.placing.coarse != 1) asked[surface][shown.placing.coarse == 2 ? 0 : 1] = true;
+            if (shown.placing.coarse != 1) asked[surface][averagedAt(shown.placing.coarse)] = true;
         };
         for (const EngineLight& light : scene.lights) {
             for (std::size_t k = 0; k < light.looks.size(); ++k) {
@@ -143,7 +179,7 @@ void updateVisibility(EngineScene& scene, bool all, int threads) {
             for (std::size_t which = 0; which < 2; ++which) {
                 PaddedPlane& plane = scene.surfaces[k].averaged[which];
                 if (!asked[k][which]) plane = {};
-                if (asked[k][which] && plane.empty()) plane = averagedPlane(scene.tiles, which == 0 ? 2 : 4);
+                if (asked[k][which] && plane.empty()) plane = averagedPlane(scene.tiles, kCoarse[which]);
             }
         }
     }
@@ -224,6 +260,7 @@ void updateVisibility(EngineScene& scene, bool all, int threads) {
 }
 
 void updateAveraged(EngineScene& scene, bool all, int threads) {
+    averagePicture(scene, threads);
     std::vector<Job> jobs;
     for (std::size_t l = 0; l < scene.lights.size(); ++l) {
         EngineLight& light = scene.lights[l];
@@ -232,7 +269,7 @@ void updateAveraged(EngineScene& scene, bool all, int threads) {
             const int coarse = look.shown.placing.coarse;
             if (coarse == 1 || !look.takesPart) continue;
             const bool fresh = look.averaged[0].empty();
-            auto& spare = scene.spareAverages[coarse == 2 ? 0 : 1];
+            auto& spare = scene.spareAverages[averagedAt(coarse)];
             if (fresh && !spare.empty()) {
                 look.averaged = std::move(spare.back().averaged);
                 look.averagedDark = std::move(spare.back().dark);
@@ -246,7 +283,7 @@ void updateAveraged(EngineScene& scene, bool all, int threads) {
             if (all || fresh) marks.markAll();
             const auto mark = [&](const std::vector<ViewRect>& rects) {
                 for (const ViewRect& rect : rects)
-                    marks.mark(rect.grown(7));
+                    marks.mark(rect.grown(averagingLead(coarse)));
             };
             mark(scene.surfaces[k].changed);
             mark(look.changedVisible);
@@ -254,7 +291,7 @@ void updateAveraged(EngineScene& scene, bool all, int threads) {
                 mark(scene.changedLight[static_cast<std::size_t>(light.light.level)]);
             const auto planes = scene.planesOf(light, k);
             marks.each([&](int tile) {
-                const bool dark = litBox(scene.tiles.rect(tile).grown(averaging(coarse).lead), planes).empty();
+                const bool dark = litBox(scene.tiles.rect(tile).grown(averagingLead(coarse)), planes).empty();
                 if (!dark || look.averagedDark[static_cast<std::size_t>(tile)] == 0) jobs.push_back({l, k, tile});
             });
         }
@@ -265,15 +302,18 @@ void updateAveraged(EngineScene& scene, bool all, int threads) {
         EngineLook& look = light.looks[job.surface];
         const int coarse = look.shown.placing.coarse;
         const auto planes = scene.planesOf(light, job.surface);
-        const ViewRect rect = scene.tiles.rect(job.tile), window = rect.grown(averaging(coarse).lead);
+        const ViewRect rect = scene.tiles.rect(job.tile), window = rect.grown(averagingLead(coarse));
         const bool dark = litBox(window, planes).empty();
         look.averagedDark[static_cast<std::size_t>(job.tile)] = dark ? 1 : 0;
-        if (!dark) maskOver(workspace(), window, planes);
+        const Covered covered = dark ? Covered{} : coveredOver(workspace(), window, planes);
         for (std::size_t c = 0; c < 3; ++c) {
             if (dark) {
-                darken(look.averaged[c], coarse, rect);
+                fill(look.averaged[c], coarse, rect, 0.0F);
+            } else if (!covered.mask) {  // the picture's own average will do
+                copyScaled(look.averaged[c], scene.averagedAlbedo[averagedAt(coarse)][c], coarse, rect, covered.even);
             } else {
-                averageInto(look.averaged[c], coarse, rect, &scene.albedo[c]);
+                if (c + 1 < 3) fetchAhead(scene.albedo[c + 1], window);
+                averageInto(look.averaged[c], coarse, rect, covered, &scene.albedo[c]);
             }
         }
     });

@@ -87,8 +87,10 @@ Looks asMet(const Looks& nearer, const Looks& farther) {
 struct ViewEngine::State {
     int threads = 2;
     EngineScene scene;
+    view::SpareTiles spareTiles;
     std::optional<view::SceneCut> cut;
     std::vector<view::LightRaster> rasters;
+    std::optional<view::LightMap> lightMap;
     PerceivedView last;
     std::vector<Box<ViewTile>> plainTiles;  ///< of the picture; empty until one is shown
     std::vector<bool> pending;              ///< tiles that a cancelled view left to be worked out
@@ -143,7 +145,7 @@ void ViewEngine::State::geometry(const Document& now, const Plan& planned, const
     for (EngineLight& light : scene.lights) {
         for (EngineLook& look : light.looks) {
             if (!look.averaged[0].empty()) {
-                scene.spareAverages[look.shown.placing.coarse == 2 ? 0 : 1].push_back(
+                scene.spareAverages[view::averagedAt(look.shown.placing.coarse)].push_back(
                     {std::move(look.averaged), std::move(look.averagedDark)});
             }
             for (TilePlane* plane : {&look.visible, &look.passing}) {
@@ -347,6 +349,7 @@ void ViewEngine::State::light(const Document& now, const Program& played, const 
     scene.changedLight.assign(levels, {});
     const auto toProjector = projectorFromCamera(now);
     const auto toCamera = toProjector.inverted();
+    if (all || !lightMap) lightMap.emplace(toProjector, setting.scale, scene.size, played.projector);
     for (std::size_t level = 0; level < levels; ++level) {
         std::vector<bool> marked(static_cast<std::size_t>(scene.tiles.count()), false);
         const auto changed = rasters[level].update(played.images[level]);
@@ -383,7 +386,7 @@ void ViewEngine::State::light(const Document& now, const Program& played, const 
         view::shareOut(static_cast<int>(tiles.size()), threads, [&](int i) {
             const auto n = static_cast<std::size_t>(i);
             std::array<float, view::kTilePixels> values;
-            rasters[level].sample(values.data(), scene.tiles.rect(tiles[n]), scene.size, toProjector, setting.scale);
+            rasters[level].sample(values.data(), scene.tiles.rect(tiles[n]), *lightMap);
             rects[n] = scene.lightOfLevel[level].set(tiles[n], values.data());
         });
         for (const ViewRect& rect : rects) {
@@ -423,6 +426,7 @@ Result<PerceivedView> ViewEngine::see(const Document& document, const Plan& plan
         scene = EngineScene{};
         s.cut.reset();
         s.rasters.clear();
+        s.lightMap.reset();
         scene.size = setting->scale.size;
         scene.tiles = view::tileCount(scene.size);
         view = {};
@@ -437,6 +441,7 @@ Result<PerceivedView> ViewEngine::see(const Document& document, const Plan& plan
         const Radiance albedo = view::albedo(document, setting->scale);
         for (std::size_t c = 0; c < 3; ++c)
             scene.albedo[c] = planeOf(albedo, c, scene.tiles);
+        scene.averagedAlbedo = {};
         s.plainTiles.assign(static_cast<std::size_t>(scene.tiles.count()), {});
     }
     bool all = newPicture || switched;
@@ -515,7 +520,7 @@ Result<PerceivedView> ViewEngine::see(const Document& document, const Plan& plan
                 seen = plainTile;
                 ++each[n].plain;
             } else {
-                seen = view::tileSeen(scene, tile, each[n]);
+                seen = view::tileSeen(scene, tile, s.spareTiles, each[n]);
                 ++each[n].computed;
             }
         });

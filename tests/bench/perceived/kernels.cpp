@@ -98,7 +98,6 @@ void gatherAt(const cv::Mat& picture, const cv::Mat& radii, int x, int y, float*
 struct Kept {
     view::TileCount tiles;
     view::Shown shown;
-    view::TilePlane everywhere;
     view::PaddedPlane values, averages;
     cv::Mat out;
 };
@@ -113,7 +112,6 @@ cv::Mat byTiles(const cv::Mat& picture, double radius, const view::RungRules& ru
         view::Looks looks;
         looks.fill({radius, 1.0, 0.5 * picture.cols, 0.5 * picture.rows});
         kept.shown = view::shown(looks, 1, kept.tiles, rules);
-        kept.everywhere = view::TilePlane(kept.tiles, 1.0F);
         const int c = kept.shown.placing.coarse, width = kept.tiles.columns * view::kTileW,
                   height = kept.tiles.rows * view::kTileH;
         kept.values = view::PaddedPlane(width, height);
@@ -125,22 +123,16 @@ cv::Mat byTiles(const cv::Mat& picture, double radius, const view::RungRules& ru
     const view::TileCount tiles = kept.tiles;
     const int coarse = kept.shown.placing.coarse;
     view::Workspace& work = view::workspace();
-    const std::array<const view::TilePlane*, 1> mask{&kept.everywhere};
-    if (coarse > 1) {
-        const view::Averaging& kernel = view::averaging(coarse);
-        for (int tile = 0; tile < tiles.count(); ++tile) {
-            const view::ViewRect rect = tiles.rect(tile), window = rect.grown(kernel.lead);
-            view::maskOver(work, window, mask);
-            view::averageTile(kept.averages.at(rect.x0 / coarse, rect.y0 / coarse), kept.averages.stride(), coarse,
-                              work.mask.data(), work.maskStride, kept.values.at(window.x0, window.y0),
-                              kept.values.stride(), kernel);
-        }
+    for (int tile = 0; tile < tiles.count() && coarse > 1; ++tile) {
+        const view::ViewRect rect = tiles.rect(tile), window = rect.grown(view::averagingLead(coarse));
+        view::averageTile(kept.averages.at(rect.x0 / coarse, rect.y0 / coarse), kept.averages.stride(), coarse, nullptr,
+                          0, kept.values.at(window.x0, window.y0), kept.values.stride(), 1.0F);
     }
     std::array<float, view::kTilePixels> seen;
     for (int tile = 0; tile < tiles.count(); ++tile) {
         seen.fill(0.0F);
         const view::ViewRect part = kept.shown.samples(tiles, tile), rect = tiles.rect(tile);
-        view::sumSource(work, kept.shown, part, {{}, false, coarse > 1 ? &kept.averages : &kept.values});
+        view::sumSource(work, kept.shown, part, {{}, coarse > 1 ? &kept.averages : &kept.values});
         view::addSummed(seen.data(), work, kept.shown, kept.shown.kernel(0, 1), tiles, tile, part, nullptr, 1.0F);
         for (int y = 0; y < std::min(view::kTileH, picture.rows - rect.y0); ++y) {
             std::copy_n(seen.data() + y * view::kTileW, std::min(view::kTileW, picture.cols - rect.x0),
@@ -159,7 +151,7 @@ const std::vector<Blur>& libraryBlurs() {
 
 cv::Mat engineExact(const cv::Mat& picture, double radius) {
     view::RungRules exact = view::rulesOf(Rung::idle);
-    exact.half_px = exact.quarter_px = 1e9;
+    exact.half_px = exact.quarter_px = exact.thinRim_px = 1e9;
     return byTiles(picture, radius, exact);
 }
 cv::Mat engineAtRest(const cv::Mat& picture, double radius) {
