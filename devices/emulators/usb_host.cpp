@@ -15,7 +15,6 @@
 #include <cstdio>
 #include <cstring>
 #include <list>
-#include <map>
 #include <mutex>
 #include <set>
 #include <stop_token>
@@ -127,11 +126,12 @@ struct UsbHost::Impl {
         EmulatedUsbDevice* device = nullptr;
         UsbDescriptors descriptors;
         Owned<UMockdevIoctlBase> handler;
-        std::map<UMockdevIoctlClient*, Client> clients;
+        std::list<std::pair<Owned<UMockdevIoctlClient>, Client>> clients;
         bool gone = false, kernelDriver = false;
         bool added = false, pulled = false;  ///< programs can see it; they no longer can
         std::chrono::steady_clock::time_point pulledAt;
 
+        void forgetClosed();
         Outcome answer(UMockdevIoctlClient* client, bool& known);
         Outcome claim(Client& client);
         Outcome submit(Client& client, UMockdevIoctlData* arg);
@@ -175,12 +175,25 @@ UsbHost::Impl::Port* UsbHost::Impl::at(const std::string& path) const {
     return nullptr;
 }
 
+/// Forgets programs that have closed their file. umockdev tells nobody of it: its signal "client-vanished" is declared
+/// and never sent (0.17.16).
+void UsbHost::Impl::Port::forgetClosed() {
+    std::erase_if(clients,
+                  [](const auto& entry) { return umockdev_ioctl_client_get_connected(entry.first.get()) == FALSE; });
+}
+
 // Ioctls of usbdevfs; linux/usbdevice_fs.h and the kernel's documentation of it.
 Outcome UsbHost::Impl::Port::answer(UMockdevIoctlClient* client, bool& known) {
     UMockdevIoctlData* arg = umockdev_ioctl_client_get_arg(client);
     const unsigned long request = umockdev_ioctl_client_get_request(client);
-    Client& program = clients[client];
     if (gone) return {-1, ENODEV};
+    auto entry = std::ranges::find_if(clients, [&](const auto& known_) { return known_.first.get() == client; });
+    if (entry == clients.end()) {
+        forgetClosed();
+        entry = clients.emplace(clients.end(), Owned<UMockdevIoctlClient>(client), Client{});
+        g_object_ref(client);
+    }
+    Client& program = entry->second;
     switch (request) {
     case USBDEVFS_GET_CAPABILITIES: {
         const IoctlData capabilities = resolved(arg, 0, sizeof(std::uint32_t));
@@ -233,6 +246,7 @@ Outcome UsbHost::Impl::Port::answer(UMockdevIoctlClient* client, bool& known) {
 }
 
 Outcome UsbHost::Impl::Port::claim(Client& client) {
+    forgetClosed();
     const bool taken = std::ranges::any_of(
         clients, [&](const auto& other) { return &other.second != &client && other.second.claimed; });
     if (taken || kernelDriver || host->busy.contains(path)) return {-1, EBUSY};
@@ -377,14 +391,6 @@ Result<void> UsbHost::Impl::plug(const std::string& path, EmulatedUsbDevice& dev
                          if (!known) return FALSE;
                          umockdev_ioctl_client_complete(client, outcome.first, outcome.second);
                          return TRUE;
-                     }),
-                     &added);
-    g_signal_connect(added.handler.get(), "client-vanished",
-                     G_CALLBACK(+[](UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer data) {
-                         auto& served = *static_cast<Port*>(data);
-                         const std::scoped_lock lock(served.host->devices);
-                         served.clients.erase(client);
-                         served.host->wake.notify_all();
                      }),
                      &added);
     return add(added);
