@@ -18,10 +18,11 @@ void append(std::vector<std::string>& to, std::vector<std::string> more) {
 
 }  // namespace
 
-Result<std::unique_ptr<LightCrafter>> LightCrafter::open(std::unique_ptr<UsbLink> link, Clock clock, BringUp bringUp) {
+Result<std::unique_ptr<LightCrafter>> LightCrafter::open(std::unique_ptr<UsbLink> link, Clock clock,
+                                                         const BringUp& bringUp) {
     auto board = Conversation::over(std::move(link));
     if (!board) return tl::unexpected(board.error());
-    return std::unique_ptr<LightCrafter>(new LightCrafter(*std::move(board), std::move(clock), std::move(bringUp)));
+    return std::unique_ptr<LightCrafter>(new LightCrafter(*std::move(board), std::move(clock), bringUp));
 }
 
 Result<Findings> LightCrafter::findings() {
@@ -59,7 +60,7 @@ Result<Findings> LightCrafter::findings() {
 }
 
 Result<VideoSignal> LightCrafter::usableVideo() {
-    const auto video = board_.ask<VideoSignal>();
+    auto video = board_.ask<VideoSignal>();
     if (!video) return video;
     const std::string wanted = std::to_string(bringUp_.raster.width) + "x" + std::to_string(bringUp_.raster.height);
     if (!video->locked)
@@ -78,7 +79,7 @@ Result<VideoSignal> LightCrafter::measuredVideo() {
     const auto display = board_.ask<Display>();
     if (!display) return tl::unexpected(display.error());
     if (*display == Display::pattern) return video_ ? Result<VideoSignal>(*video_) : videoAfterSwitching();
-    const auto video = usableVideo();
+    auto video = usableVideo();
     if (video) video_ = *video;
     return video;
 }
@@ -86,7 +87,7 @@ Result<VideoSignal> LightCrafter::measuredVideo() {
 Result<VideoSignal> LightCrafter::videoAfterSwitching() {
     if (const auto ok = showVideo(); !ok) return tl::unexpected(ok.error());
     for (int polls = 0;; ++polls) {
-        const auto video = usableVideo();
+        auto video = usableVideo();
         if (video) video_ = *video;
         if (video || polls == kMostPolls) return video;
         wait(kPollPause);

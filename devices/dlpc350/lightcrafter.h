@@ -57,7 +57,8 @@ public:
     static constexpr std::uint16_t kVendor = 0x0451, kProduct = 0x6401;
     static constexpr int kInterface = 0;
 
-    static Result<std::unique_ptr<LightCrafter>> open(std::unique_ptr<UsbLink> link, Clock clock, BringUp bringUp = {});
+    static Result<std::unique_ptr<LightCrafter>> open(std::unique_ptr<UsbLink> link, Clock clock,
+                                                      const BringUp& bringUp = {});
 
     /// Reads only. Asking disturbs running patterns, so not during a show (see watch).
     Result<Findings> findings();
@@ -85,8 +86,8 @@ public:
     const UsbIdentity& identity() const { return board_.identity(); }
 
 private:
-    LightCrafter(Conversation board, Clock clock, BringUp bringUp)
-        : board_(std::move(board)), clock_(std::move(clock)), bringUp_(std::move(bringUp)) {}
+    LightCrafter(Conversation board, Clock clock, const BringUp& bringUp)
+        : board_(std::move(board)), clock_(std::move(clock)), bringUp_(bringUp) {}
 
     /// Tells a setting and compares what the board then says it is.
     template <class T>

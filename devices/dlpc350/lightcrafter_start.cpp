@@ -20,7 +20,7 @@ Result<Started> LightCrafter::start(const PatternSequence& sequence) {
     const auto video = measuredVideo();
     if (!video) return tl::unexpected(video.error());
     if (const auto ok = checkedSequence(sequence, 1.0 / video->refresh); !ok) return tl::unexpected(ok.error());
-    const auto started = arranged(sequence, *video);
+    auto started = arranged(sequence, *video);
     if (!started) return tl::unexpected(stoppedAfter(started.error()));
     return started;
 }

@@ -125,6 +125,23 @@ TEST_CASE("dlpc350: replies over several packets, and refusals") {
     CHECK(Reply::begun(Bytes{0xC0, 1, 0xFF, 0xFF}).error().what == "A reply says it has 65535 bytes; the most is 512.");
 }
 
+TEST_CASE("dlpc350: a reply cut short anywhere is an error") {
+    Bytes whole(4 + 100, 7);
+    whole[0] = 0xC0, whole[2] = 100, whole[3] = 0;
+    const auto part = [&](std::size_t from, std::size_t to) {
+        return Bytes(whole.begin() + static_cast<std::ptrdiff_t>(from),
+                     whole.begin() + static_cast<std::ptrdiff_t>(to));
+    };
+    for (std::size_t cut = 0; cut < 64; ++cut)
+        CHECK(!Reply::begun(part(0, cut)));
+    auto reply = Reply::begun(part(0, 64));
+    REQUIRE(reply);
+    for (std::size_t cut = 64; cut < whole.size(); ++cut)
+        CHECK(!reply->add(part(64, cut)));
+    CHECK(reply->add(part(64, whole.size())));
+    CHECK(reply->whole());
+}
+
 TEST_CASE("dlpc350: states and settings from bytes written by hand") {
     const Bytes version{0x07, 0x00, 0x04, 0x04, 0x01, 0x01, 0x02, 0x03, 0, 0, 0, 2, 0, 0, 0, 3};
     CHECK(parsed<Version>(version) == Version{{4, 4, 7}, {3, 2, 257}, {2, 0, 0}, {3, 0, 0}});
