@@ -91,18 +91,17 @@ Result<void> LensDriver::opened() {
     Ampere most;
     int low = 0, high = 0;
     using namespace lens_driver;
-    const auto all =
-        read(readFirmwareType(), firmwareTypeFrom, [&](char type) { facts_.firmwareType = type; })
-            .and_then([&] { return read(readVersion(), versionFrom, [&](Version v) { facts_.version = v; }); })
-            .and_then([&] {
-                return read(readLensSerial(), lensSerialFrom,
-                            [&](std::string serial) { facts_.lensSerial = std::move(serial); });
-            })
-            .and_then([&] { return read(readMaxCurrent(), maxCurrentFrom, [&](Ampere a) { most = a; }); })
-            .and_then([&] { return read(readUpperLimit(), codeFrom, [&](int code) { high = code; }); })
-            .and_then([&] { return read(readLowerLimit(), codeFrom, [&](int code) { low = code; }); })
-            .and_then([&] { return switched(Mode::current); })
-            .and_then([&] { return sendCurrent(Ampere()); });
+    auto all = read(readFirmwareType(), firmwareTypeFrom, [&](char type) { facts_.firmwareType = type; })
+                   .and_then([&] { return read(readVersion(), versionFrom, [&](Version v) { facts_.version = v; }); })
+                   .and_then([&] {
+                       return read(readLensSerial(), lensSerialFrom,
+                                   [&](std::string serial) { facts_.lensSerial = std::move(serial); });
+                   })
+                   .and_then([&] { return read(readMaxCurrent(), maxCurrentFrom, [&](Ampere a) { most = a; }); })
+                   .and_then([&] { return read(readUpperLimit(), codeFrom, [&](int code) { high = code; }); })
+                   .and_then([&] { return read(readLowerLimit(), codeFrom, [&](int code) { low = code; }); })
+                   .and_then([&] { return switched(Mode::current); })
+                   .and_then([&] { return sendCurrent(Ampere()); });
     if (!all) return all;
     const auto limits = currentLimits(setup_.protection, most, currentOf(low, most), currentOf(high, most));
     if (!(limits.low <= limits.high))

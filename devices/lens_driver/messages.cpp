@@ -142,7 +142,7 @@ Frame framed(View received, const Answer& expected) {
     using Kind = Frame::Kind;
     if (received.empty()) return {};
     const char first = static_cast<char>(received[0]);
-    const Frame noise{Kind::noise, 1, 0, {}};
+    Frame noise{Kind::noise, 1, 0, {}};
     if (expected.first != 0 && first == expected.first) {
         bool may = false;
         for (const int letters : {expected.letters, expected.otherLetters}) {

@@ -10,7 +10,7 @@ constexpr Milliseconds kControl{100};
 constexpr std::size_t kTransferBytes = 512;
 constexpr int kInFlight = 8;
 // Ten seconds: a recording for the rig is taken all the while, so this much means that nobody listens.
-constexpr std::size_t kMostWaiting = 10 * 48'000 * 2;
+constexpr std::size_t kMostWaiting = std::size_t{10} * 48'000 * 2;
 
 }  // namespace
 

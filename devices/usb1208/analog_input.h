@@ -41,7 +41,7 @@ public:
     Result<HeardBlock> take();
     bool factoryCalibrated() const { return calibrations_.factory; }
     /// For each channel.
-    double samplesPerSecond() const { return usb1208::kSampleRate_Hz / channels_; }
+    double samplesPerSecond() const { return usb1208::kSampleRateHz / channels_; }
     int channels() const { return channels_; }
     /// When the first sample was taken, to the length of one USB request (about 1 ms).
     std::chrono::nanoseconds startedAt() const { return startedAt_; }

@@ -18,13 +18,13 @@ constexpr std::size_t kTransferFrames = 480;
 
 Second PlayedChange::wait() const {
     const auto frames = std::max<std::int64_t>(0, change.completeAt - heardFrom);
-    return Second::fromSi(static_cast<double>(frames) / usb1208::kSampleRate_Hz);
+    return Second::fromSi(static_cast<double>(frames) / usb1208::kSampleRateHz);
 }
 
-LensOutput::LensOutput(std::shared_ptr<UsbLink> link, LensOutputSetup setup, Clock clock)
-    : link_(std::move(link)), setup_(std::move(setup)), clock_(std::move(clock)) {}
+LensOutput::LensOutput(std::shared_ptr<UsbLink> link, const LensOutputSetup& setup, Clock clock)
+    : link_(std::move(link)), setup_(setup), clock_(std::move(clock)) {}
 
-Result<std::unique_ptr<LensOutput>> LensOutput::open(std::shared_ptr<UsbLink> link, LensOutputSetup setup,
+Result<std::unique_ptr<LensOutput>> LensOutput::open(std::shared_ptr<UsbLink> link, const LensOutputSetup& setup,
                                                      Clock clock) {
     for (const auto& [channel, name] :
          {std::pair(&setup.channels.left, "left lens"), std::pair(&setup.channels.right, "right lens")}) {
@@ -33,7 +33,7 @@ Result<std::unique_ptr<LensOutput>> LensOutput::open(std::shared_ptr<UsbLink> li
             return fail(Fault::outOfRange, "The resting current of the " + std::string(name) +
                                                " is more than its amplifier may give. Correct it in the rig.");
     }
-    std::unique_ptr<LensOutput> output(new LensOutput(std::move(link), std::move(setup), std::move(clock)));
+    std::unique_ptr<LensOutput> output(new LensOutput(std::move(link), setup, std::move(clock)));
     if (auto ready = output->opened(); !ready) return tl::unexpected(std::move(ready.error()));
     return output;
 }
@@ -186,7 +186,7 @@ int LensOutput::samplesPerSweep() const {
 
 double LensOutput::playedFrames() const {
     if (!sweeping_) return 0.0;
-    return std::chrono::duration<double>(clock_.now() - startedAt_).count() * usb1208::kSampleRate_Hz;
+    return std::chrono::duration<double>(clock_.now() - startedAt_).count() * usb1208::kSampleRateHz;
 }
 
 }  // namespace ilf::devices

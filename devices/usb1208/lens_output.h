@@ -43,7 +43,7 @@ struct LensOutputReport {
 /// destroyed. Calls come from one thread; samples are made on the stream's own.
 class LensOutput {
 public:
-    static Result<std::unique_ptr<LensOutput>> open(std::shared_ptr<UsbLink> link, LensOutputSetup setup,
+    static Result<std::unique_ptr<LensOutput>> open(std::shared_ptr<UsbLink> link, const LensOutputSetup& setup,
                                                     Clock clock = Clock::steady());
     ~LensOutput();
     LensOutput(const LensOutput&) = delete;
@@ -71,7 +71,7 @@ public:
     double playedFrames() const;
 
 private:
-    LensOutput(std::shared_ptr<UsbLink> link, LensOutputSetup setup, Clock clock);
+    LensOutput(std::shared_ptr<UsbLink> link, const LensOutputSetup& setup, Clock clock);
 
     Result<void> opened();
     Result<void> started(std::size_t samples);

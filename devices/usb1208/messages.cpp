@@ -8,7 +8,7 @@
 namespace ilf::devices::usb1208 {
 namespace {
 
-constexpr double kOutputRange_V = 5.0, kInputRange_V = 10.0;
+constexpr double kOutputRangeVolts = 5.0, kInputRangeVolts = 10.0;
 
 void put32(Bytes& bytes, std::uint32_t value) {
     for (int shift = 0; shift < 32; shift += 8)
@@ -66,11 +66,11 @@ Result<std::array<std::uint16_t, kOutputs>> outputsFrom(View data) {
 
 std::uint16_t outputCode(Volt volts) {
     if (!isFinite(volts)) return 0;
-    const double code = std::round(volts.si() * kCodes / kOutputRange_V);
+    const double code = std::round(volts.si() * kCodes / kOutputRangeVolts);
     return static_cast<std::uint16_t>(std::clamp(code, 0.0, kCodes - 1.0));
 }
 
-Volt outputVolts(std::uint16_t code) { return Volt::fromSi(code * kOutputRange_V / kCodes); }
+Volt outputVolts(std::uint16_t code) { return Volt::fromSi(code * kOutputRangeVolts / kCodes); }
 
 void putSample(std::span<std::uint8_t> two, std::uint16_t code) {
     two[0] = static_cast<std::uint8_t>(code & 0xFF);
@@ -94,15 +94,15 @@ InputCalibrations inputCalibrationsFrom(View data) {
 
 Volt inputVolts(std::uint16_t code, const InputCalibration& calibration) {
     const double calibrated = code * calibration.slope + calibration.offset;
-    return Volt::fromSi((calibrated - kCodes / 2.0) * kInputRange_V / (kCodes / 2.0));
+    return Volt::fromSi((calibrated - kCodes / 2.0) * kInputRangeVolts / (kCodes / 2.0));
 }
 
 Result<int> samplesPerSweep(Hertz rate) {
     constexpr double kMost = 20e-6;
     if (!(rate >= 1.0_Hz && rate <= 500.0_Hz))
         return fail(Fault::outOfRange, "The DAC plays sweeps of 1 to 500 Hz. Choose another sweep rate.");
-    const double samples = std::round(kSampleRate_Hz / rate.si());
-    const double nearest = kSampleRate_Hz / samples;
+    const double samples = std::round(kSampleRateHz / rate.si());
+    const double nearest = kSampleRateHz / samples;
     if (std::abs(nearest / rate.si() - 1.0) > kMost) {
         const auto text = [](double value) {
             const auto digits = std::to_string(value);

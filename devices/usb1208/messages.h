@@ -24,14 +24,14 @@
 namespace ilf::devices::usb1208 {
 
 inline constexpr std::uint16_t kVendor = 0x09DB, kProduct = 0x00E8;
-inline constexpr double kClock_Hz = 60e6;
+inline constexpr double kClockHz = 60e6;
 /// 48 kS/s: with it 60 Hz is exactly 800 samples.
 inline constexpr std::uint32_t kPacer = 1250 - 1;
-inline constexpr double kSampleRate_Hz = kClock_Hz / (kPacer + 1);
+inline constexpr double kSampleRateHz = kClockHz / (kPacer + 1);
 inline constexpr int kOutputs = 2, kInputs = 8;
 /// What the device itself buffers of the outputs.
 inline constexpr std::size_t kOutputFifoBytes = 8192;
-inline constexpr std::size_t kBytesPerFrame = 2 * kOutputs;
+inline constexpr std::size_t kBytesPerFrame = 2 * std::size_t{kOutputs};
 inline constexpr int kCodes = 4096;
 
 using View = std::span<const std::uint8_t>;

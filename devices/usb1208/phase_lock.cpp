@@ -40,7 +40,7 @@ double PhaseLock::wrapped(double samples) const {
 
 tl::unexpected<Error> PhaseLock::tooFar(double perSweep) const {
     const double sweep = setup_.samplesPerSweep;
-    const double ours = usb1208::kSampleRate_Hz / sweep, its = usb1208::kSampleRate_Hz / (sweep + perSweep);
+    const double ours = usb1208::kSampleRateHz / sweep, its = usb1208::kSampleRateHz / (sweep + perSweep);
     return fail(Fault::unsupported, "The projector shows " + fixed(its, 3) +
                                         " pictures a second and the lenses sweep at " + fixed(ours, 3) +
                                         " Hz: that is too far apart to be kept in step by slipping "
@@ -113,7 +113,7 @@ Result<PhaseAdvice> PhaseLock::followed(double sweeps, double phase, double erro
     if (std::abs(perSweep_) > 1.5 * kMostPpm * 1e-6 * setup_.samplesPerSweep) return tooFar(perSweep_);
 
     const auto kept =
-        static_cast<std::size_t>(std::max(1.0, kReportedSeconds * usb1208::kSampleRate_Hz / setup_.samplesPerSweep));
+        static_cast<std::size_t>(std::max(1.0, kReportedSeconds * usb1208::kSampleRateHz / setup_.samplesPerSweep));
     if (errors_.size() < kept) {
         errors_.push_back(error);
     } else {
@@ -142,7 +142,7 @@ Result<void> PhaseLock::heard(double sample) const {
     if (sweeps <= (last_ ? kLostSweeps : 4.0 * kLostSweeps)) return {};
     return fail(Fault::device,
                 last_ ? "The projector's trigger is lost: none came for " +
-                            fixed(sweeps * setup_.samplesPerSweep / usb1208::kSampleRate_Hz * 1e3, 0) +
+                            fixed(sweeps * setup_.samplesPerSweep / usb1208::kSampleRateHz * 1e3, 0) +
                             " ms. Check the cable from TRIG_OUT_2 to the DAC's first input."
                       : "No trigger comes from the projector. Check the cable from TRIG_OUT_2 to the DAC's "
                         "first input, and that the projector is in pattern mode.");
@@ -157,7 +157,7 @@ PhaseReport PhaseLock::report() const {
         squares += error * error;
         most = std::max(most, std::abs(error));
     }
-    const Second sample = Second::fromSi(1.0 / usb1208::kSampleRate_Hz);
+    const Second sample = Second::fromSi(1.0 / usb1208::kSampleRateHz);
     if (!errors_.empty()) report.rms = std::sqrt(squares / static_cast<double>(errors_.size())) * sample;
     report.most = most * sample;
     return report;

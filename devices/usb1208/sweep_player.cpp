@@ -12,12 +12,12 @@
 namespace ilf::devices {
 namespace {
 
-const Second kStep = Second::fromSi(1.0 / usb1208::kSampleRate_Hz);
+const Second kStep = Second::fromSi(1.0 / usb1208::kSampleRateHz);
 // A wave may use so much of the slope that the amplifier allows: the rest is for fading and slipping.
 constexpr double kSlopeForWaves = 0.9;
 // A fade longer than this would be a fault in the waves, not a change.
 constexpr int kMostFadeSweeps = 120;
-constexpr std::int64_t kRemembered = 2 * static_cast<std::int64_t>(usb1208::kSampleRate_Hz);
+constexpr std::int64_t kRemembered = 2 * static_cast<std::int64_t>(usb1208::kSampleRateHz);
 
 double mostStep(const Amplifier& amplifier) { return amplifier.slew.si() * kStep.si(); }
 
@@ -87,9 +87,8 @@ SweepSamples resting(const LensChannels& channels, std::size_t samples) {
             std::vector<double>(samples, channels.right.rest.si())};
 }
 
-SweepPlayer::SweepPlayer(LensChannels channels, std::size_t samples)
-    : channels_(std::move(channels)), now_(resting(channels_, samples)), left_(channels_.left.rest),
-      right_(channels_.right.rest) {
+SweepPlayer::SweepPlayer(const LensChannels& channels, std::size_t samples)
+    : channels_(channels), now_(resting(channels_, samples)), left_(channels_.left.rest), right_(channels_.right.rest) {
     assert(samples >= 4);
 }
 

@@ -50,7 +50,7 @@ struct Change {
 class SweepPlayer {
 public:
     /// Plays rest, in sweeps of `samples`.
-    SweepPlayer(LensChannels channels, std::size_t samples);
+    SweepPlayer(const LensChannels& channels, std::size_t samples);
 
     /// The next `frames.size() / 4` frames, as the device takes them.
     void fill(std::span<std::uint8_t> frames);

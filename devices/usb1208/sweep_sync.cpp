@@ -9,7 +9,7 @@ namespace {
 // Whole sweeps over which an echo is averaged: 0.2 s at 60 Hz.
 constexpr double kEchoSweeps = 12.0;
 // An echo below this is no wire, or a lens that stands still.
-constexpr double kLeastEcho_V = 0.02;
+constexpr double kLeastEchoVolts = 0.02;
 // The echo's noise moves its phase by hundredths of a sample; lost samples move it by at least one.
 constexpr double kMostMoved = 1.5;
 // By how much the reckoned place may be off before it is heard: 50 ms.
@@ -21,8 +21,8 @@ constexpr std::chrono::milliseconds kSilence{300};
 SweepSync::SweepSync(LensOutput& output, AnalogInput& input, Echo echo, EdgeLevels levels, double target, Clock clock)
     : output_(output), input_(input), echo_(echo), finder_(levels),
       lock_(PhaseLockSetup{.samplesPerSweep = output.samplesPerSweep(), .target = target}), clock_(std::move(clock)),
-      framesPerSample_(usb1208::kSampleRate_Hz / input.samplesPerSecond()),
-      origin_(std::chrono::duration<double>(input.startedAt() - output.startedAt()).count() * usb1208::kSampleRate_Hz),
+      framesPerSample_(usb1208::kSampleRateHz / input.samplesPerSecond()),
+      origin_(std::chrono::duration<double>(input.startedAt() - output.startedAt()).count() * usb1208::kSampleRateHz),
       lastHeard_(clock_.now()) {}
 
 Result<SyncReport> SweepSync::step() {
@@ -70,7 +70,7 @@ Result<void> SweepSync::followed(double frame) {
 Result<void> SweepSync::heardEcho(const HeardBlock& block) {
     const auto tone = output_.leftTone();
     const double sweep = output_.samplesPerSweep();
-    if (std::abs(tone.fundamental) < kLeastEcho_V || sweep <= 0.0) {
+    if (std::abs(tone.fundamental) < kLeastEchoVolts || sweep <= 0.0) {
         sum_ = echoSamples_ = 0.0;
         return {};
     }

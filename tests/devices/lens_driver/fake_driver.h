@@ -65,7 +65,7 @@ struct FakeDriver {
         }
         return value;
     }
-    void say(std::string letters, std::vector<int> data = {}) {
+    void say(const std::string& letters, const std::vector<int>& data = {}) {
         std::vector<std::uint8_t> bytes(letters.begin(), letters.end());
         for (const int byte : data)
             bytes.push_back(static_cast<std::uint8_t>(byte & 0xFF));

@@ -148,7 +148,10 @@ public:
         dac_.pass(std::chrono::microseconds(250));
         if (dac_.deaf) return {};
         const auto u32 = [&](std::size_t i) {
-            return data[i] | data[i + 1] << 8 | data[i + 2] << 16 | static_cast<std::uint32_t>(data[i + 3]) << 24;
+            std::uint32_t value = 0;
+            for (std::size_t k = 4; k-- > 0;)
+                value = value << 8 | data[i + k];
+            return value;
         };
         switch (r.request) {
         case 0x18:

@@ -23,7 +23,7 @@ TEST_CASE("USB-1208FS-Plus messages: the requests are those of the reference, by
 }
 
 TEST_CASE("USB-1208FS-Plus messages: at 48 kS/s a sweep of 60 Hz has exactly 800 samples") {
-    CHECK(kSampleRate_Hz == 48000.0);
+    CHECK(kSampleRateHz == 48000.0);
     CHECK(*samplesPerSweep(60.0_Hz) == 800);
     CHECK(*samplesPerSweep(50.0_Hz) == 960);
     CHECK(*samplesPerSweep(120.0_Hz) == 400);

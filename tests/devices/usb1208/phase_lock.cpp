@@ -32,7 +32,7 @@ struct Bench {
     std::string why;
 
     void made(double until) {
-        Bytes bytes(4 * 480);
+        Bytes bytes(std::size_t{4} * 480);
         while (static_cast<double>(player.frames()) < until + buffered)
             player.fill(bytes);
     }

@@ -51,9 +51,9 @@ Heard heard(SweepPlayer& player, std::size_t frames) {
     return all;
 }
 
-constexpr double kCode_mA = 0.123;
+constexpr double kCodeMilliamperes = 0.123;
 // 1000 A/s.
-constexpr double kMostStep_mA = 1000.0 / 48.0 + kCode_mA;
+constexpr double kMostStepMilliamperes = 1000.0 / 48.0 + kCodeMilliamperes;
 
 double steepest(const std::vector<double>& wave) {
     double most = 0.0;
@@ -75,9 +75,9 @@ TEST_CASE("sweep player: it plays rest until it is told otherwise") {
     SweepPlayer player(channels(), 800);
     const auto rest = heard(player, 2000);
     for (const double left : rest.left)
-        CHECK(std::abs(left - 20.0) <= kCode_mA);
+        CHECK(std::abs(left - 20.0) <= kCodeMilliamperes);
     for (const double right : rest.right)
-        CHECK(std::abs(right + 10.0) <= kCode_mA);
+        CHECK(std::abs(right + 10.0) <= kCodeMilliamperes);
 }
 
 TEST_CASE("sweep player: blocks of any size give the same samples") {
@@ -112,13 +112,13 @@ TEST_CASE("sweep player: a new wave begins at sample 0 of a sweep, and no step i
             RC_ASSERT(change.has_value());
             RC_ASSERT(change->startsAt >= player.frames());
             RC_ASSERT(change->startsAt % 800 == 0);
-            RC_ASSERT(change->completeAt == change->startsAt + 800 * change->fadeSweeps);
+            RC_ASSERT(change->completeAt == change->startsAt + std::int64_t{800} * change->fadeSweeps);
             play(static_cast<std::size_t>(change->completeAt - player.frames()) + 801);
             const auto at = static_cast<std::size_t>(change->completeAt);
             for (std::size_t s = 0; s < 800; ++s)
-                RC_ASSERT(std::abs(left[at + s] - wave.left[s] * 1e3) <= kCode_mA);
+                RC_ASSERT(std::abs(left[at + s] - wave.left[s] * 1e3) <= kCodeMilliamperes);
         }
-        RC_ASSERT(steepest(left) <= kMostStep_mA);
+        RC_ASSERT(steepest(left) <= kMostStepMilliamperes);
     });
 }
 
@@ -158,13 +158,13 @@ TEST_CASE("sweep player: slips make single sweeps one sample longer or shorter a
         heard(player, static_cast<std::size_t>(change->completeAt));
         const int slips = *rc::gen::inRange(-5, 6);
         player.slip(slips);
-        const auto frames = static_cast<std::size_t>(800 * 6 + slips);
+        const auto frames = std::size_t{800} * 6 + static_cast<std::size_t>(slips);
         const auto slipped = heard(player, frames);
         const auto after = heard(player, 800);
         for (std::size_t s = 0; s < 800; ++s)
-            RC_ASSERT(std::abs(after.left[s] - wave.left[s] * 1e3) <= kCode_mA);
+            RC_ASSERT(std::abs(after.left[s] - wave.left[s] * 1e3) <= kCodeMilliamperes);
         // 200 mA at 60 Hz: 1.57 mA a sample at most; a slip is at the flattest place.
-        RC_ASSERT(steepest(slipped.left) <= 1.58 + 2.0 * kCode_mA);
+        RC_ASSERT(steepest(slipped.left) <= 1.58 + 2.0 * kCodeMilliamperes);
         const auto place = player.placeOf(static_cast<double>(change->completeAt) + static_cast<double>(frames) + 3.25);
         RC_ASSERT(place.has_value());
         RC_ASSERT(std::abs(place->offset - 3.25) < 1e-9);
@@ -183,7 +183,7 @@ TEST_CASE("sweep player: a shift moves the sweep's start without a jump") {
         RC_ASSERT(change.has_value());
         RC_ASSERT(change->completeAt > before);
         const auto fade = heard(player, static_cast<std::size_t>(change->completeAt - before) + 1600);
-        RC_ASSERT(steepest(fade.left) <= kMostStep_mA);
+        RC_ASSERT(steepest(fade.left) <= kMostStepMilliamperes);
         // Two sweeps later the wave starts `by` samples after where it would have.
         const auto after = heard(player, 2400);
         const auto at = static_cast<double>(player.frames()) - 800.0;
@@ -193,7 +193,7 @@ TEST_CASE("sweep player: a shift moves the sweep's start without a jump") {
         const double old = at - static_cast<double>(change->startsAt);
         RC_ASSERT(std::abs(std::remainder(old - by - place->offset, 800.0)) < 1e-9);
         const auto sample = static_cast<std::size_t>(std::lround(place->offset + 800.0)) % 800;
-        RC_ASSERT(std::abs(after.left[1600] - wave.left[sample] * 1e3) <= kCode_mA);
+        RC_ASSERT(std::abs(after.left[1600] - wave.left[sample] * 1e3) <= kCodeMilliamperes);
     });
 }
 
