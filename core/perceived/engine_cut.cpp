@@ -25,6 +25,29 @@ std::vector<Box<Region>> taking(const Document& document) {
 
 }  // namespace
 
+std::vector<Image<float>> pictureShares(const SceneCut& cut, Size picture, Size view, int threads) {
+    const TileCount tiles = tileCount(picture);
+    const std::size_t width = static_cast<std::size_t>(picture.width),
+                      count = width * static_cast<std::size_t>(picture.height);
+    std::vector<std::vector<float>> shares(cut.surfaces().size(), std::vector<float>(count));
+    shareOut(tiles.count(), threads, [&](int tile) {
+        const ViewRect rect = tiles.rect(tile);
+        thread_local SceneCut::Tiles one;
+        cut.shares(rect.x0, rect.y0, one);
+        for (std::size_t k = 0; k < shares.size(); ++k) {
+            if (!one.touched[k]) continue;
+            for (int y = rect.y0; y < std::min(rect.y1, picture.height); ++y) {
+                std::copy_n(one.values[k].data() + (y - rect.y0) * kTileW, std::min(kTileW, picture.width - rect.x0),
+                            shares[k].data() + static_cast<std::size_t>(y) * width + static_cast<std::size_t>(rect.x0));
+            }
+        }
+    });
+    std::vector<Image<float>> resized;
+    for (auto& share : shares)
+        resized.push_back(shrunk(Image<float>(picture, 1, std::move(share)), view));
+    return resized;
+}
+
 double bandStep(const Document& document, const Plan& plan, double scale, double coarseness) {
     constexpr double kBlurStep = 0.5, kMostBands = 24.0;
     const double pixelsPerDioptre = document.scene.scale.focalPixels * scale * 0.5 * plan.input.eye.pupil.si();

@@ -60,6 +60,9 @@ private:
     std::map<long, int> bands_;
 };
 
+/// What each surface shows of a whole picture, averaged to the view's size; one channel each.
+std::vector<Image<float>> pictureShares(const SceneCut& cut, Size picture, Size view, int threads);
+
 /// Vergence between two bands: half a view pixel of blur (`coarseness` times that), but no region in more than 24.
 double bandStep(const Document& document, const Plan& plan, double scale, double coarseness);
 

@@ -5,9 +5,24 @@
 #include <bit>
 #include <cstring>
 
+#include "core/base/parallel.h"
 #include "core/perceived/engine_simd.h"
 
 namespace ilf::view {
+
+void shareOut(int count, int threads, const std::function<void(int)>& work) {
+    // Runs of neighbours: what they read lies close together, and each thread keeps its own near.
+    const int run = threads > 1 && count > 2 ? std::clamp(count / 16, 1, 16) : count;
+    const auto doRun = [&](int n) {
+        for (int i = n * run; i < std::min(count, (n + 1) * run); ++i)
+            work(i);
+    };
+    if (run == count) {
+        doRun(0);
+    } else {
+        parallelFor((count + run - 1) / run, doRun);
+    }
+}
 
 TileCount tileCount(Size size) { return {(size.width + kTileW - 1) / kTileW, (size.height + kTileH - 1) / kTileH}; }
 

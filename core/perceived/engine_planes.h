@@ -1,6 +1,7 @@
 // One number for each pixel of a view, kept in the view's own tiles: uniform ones cost nothing.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -36,6 +37,9 @@ struct TileCount {
     }
 };
 TileCount tileCount(Size size);
+
+/// `work(i)` for 0 <= i < count on one thread, or shared between two.
+void shareOut(int count, int threads, const std::function<void(int)>& work);
 
 class TilePlane {
 public:

@@ -86,7 +86,4 @@ Box<ViewTile> tileSeen(const EngineScene& scene, int tile, SpareTiles& spare, Vi
 void updateVisibility(EngineScene& scene, bool all, int threads);
 void updateAveraged(EngineScene& scene, bool all, int threads);
 
-/// `work(i)` for 0 <= i < count on one thread, or shared between two.
-void shareOut(int count, int threads, const std::function<void(int)>& work);
-
 }  // namespace ilf::view

@@ -3,7 +3,6 @@
 #include <array>
 #include <utility>
 
-#include "core/base/parallel.h"
 #include "core/perceived/engine_state.h"
 
 namespace ilf::view {
@@ -117,6 +116,53 @@ void updateAveragedAlpha(EngineScene& scene, bool all, int threads) {
     });
 }
 
+/// Which surfaces' alphas are asked for as averages; makes room for those.
+void makeRoomForAverages(EngineScene& scene) {
+    std::vector<std::array<bool, 2>> asked(scene.surfaces.size());
+    const auto ask = [&](const Shown& shown, std::size_t surface) {
+        if (shown.placing.coarse != 1) asked[surface][averagedAt(shown.placing.coarse)] = true;
+    };
+    for (const EngineLight& light : scene.lights) {
+        for (std::size_t k = 0; k < light.looks.size(); ++k) {
+            if (light.looks[k].hides) ask(light.looks[k].shown, k);
+            for (const Before& before : light.looks[k].visibleBehind)
+                ask(before.shown, static_cast<std::size_t>(before.nearer));
+        }
+    }
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+        for (std::size_t which = 0; which < 2; ++which) {
+            PaddedPlane& plane = scene.surfaces[k].averaged[which];
+            if (!asked[k][which]) plane = {};
+            if (asked[k][which] && plane.empty()) plane = averagedPlane(scene.tiles, kCoarse[which]);
+        }
+    }
+}
+
+/// What nearer surfaces blurred alike leave of a farther one's points in a tile; false: all of it. Constant surfaces
+/// hide what others let pass; bands of a slope hide together.
+bool leaveVisible(const EngineScene& scene, const EngineLook& look, int tile, std::array<float, kTilePixels>& shares) {
+    std::array<float, kTilePixels> one, slope;
+    slope.fill(1.0F);
+    bool any = false, sloped = false;
+    const auto hide = [&](const std::array<float, kTilePixels>& left) {
+        for (std::size_t p = 0; p < shares.size(); ++p)
+            shares[p] *= std::clamp(left[p], 0.0F, 1.0F);
+    };
+    for (const Before& before : look.visibleBehind) {
+        const EngineSurface& nearer = scene.surfaces[static_cast<std::size_t>(before.nearer)];
+        if (!nearer.sloped) one.fill(1.0F);
+        if (!takeAway(scene, nearer, before.shown, tile, nearer.sloped ? slope : one)) continue;
+        any = true;
+        if (nearer.sloped) {
+            sloped = true;
+        } else {
+            hide(one);
+        }
+    }
+    if (sloped) hide(slope);
+    return any;
+}
+
 /// The picture itself over 2 x 2 and 4 x 4 pixels, once, for the looks that ask for it.
 void averagePicture(EngineScene& scene, int threads) {
     std::array<bool, 2> asked{};
@@ -148,41 +194,8 @@ Source coverageOf(Workspace& work, const EngineSurface& surface, const Shown& sh
     return {maskOver(work, part.grown(shown.reach), alpha), nullptr};
 }
 
-void shareOut(int count, int threads, const std::function<void(int)>& work) {
-    // Runs of neighbours: what they read lies close together, and each thread keeps its own near.
-    const int run = threads > 1 && count > 2 ? std::clamp(count / 16, 1, 16) : count;
-    const auto doRun = [&](int n) {
-        for (int i = n * run; i < std::min(count, (n + 1) * run); ++i)
-            work(i);
-    };
-    if (run == count) {
-        doRun(0);
-    } else {
-        parallelFor((count + run - 1) / run, doRun);
-    }
-}
-
 void updateVisibility(EngineScene& scene, bool all, int threads) {
-    if (all) {
-        std::vector<std::array<bool, 2>> asked(scene.surfaces.size());
-        const auto ask = [&](const Shown& shown, std::size_t surface) {
-            if (shown.placing.coarse != 1) asked[surface][averagedAt(shown.placing.coarse)] = true;
-        };
-        for (const EngineLight& light : scene.lights) {
-            for (std::size_t k = 0; k < light.looks.size(); ++k) {
-                if (light.looks[k].hides) ask(light.looks[k].shown, k);
-                for (const Before& before : light.looks[k].visibleBehind)
-                    ask(before.shown, static_cast<std::size_t>(before.nearer));
-            }
-        }
-        for (std::size_t k = 0; k < asked.size(); ++k) {
-            for (std::size_t which = 0; which < 2; ++which) {
-                PaddedPlane& plane = scene.surfaces[k].averaged[which];
-                if (!asked[k][which]) plane = {};
-                if (asked[k][which] && plane.empty()) plane = averagedPlane(scene.tiles, kCoarse[which]);
-            }
-        }
-    }
+    if (all) makeRoomForAverages(scene);
     updateAveragedAlpha(scene, all, threads);
 
     std::vector<Job> visible, passing;
@@ -217,31 +230,8 @@ void updateVisibility(EngineScene& scene, bool all, int threads) {
         EngineLook& look = scene.lights[job.light].looks[job.surface];
         std::array<float, kTilePixels> shares;
         shares.fill(1.0F);
-        bool any = false;
-        if (first) {
-            // Constant surfaces hide what others let pass; bands of a slope hide together.
-            std::array<float, kTilePixels> one, slope;
-            slope.fill(1.0F);
-            bool sloped = false;
-            const auto hide = [&](const std::array<float, kTilePixels>& left) {
-                for (std::size_t p = 0; p < shares.size(); ++p)
-                    shares[p] *= std::clamp(left[p], 0.0F, 1.0F);
-            };
-            for (const Before& before : look.visibleBehind) {
-                const EngineSurface& nearer = scene.surfaces[static_cast<std::size_t>(before.nearer)];
-                if (!nearer.sloped) one.fill(1.0F);
-                if (!takeAway(scene, nearer, before.shown, job.tile, nearer.sloped ? slope : one)) continue;
-                any = true;
-                if (nearer.sloped) {
-                    sloped = true;
-                } else {
-                    hide(one);
-                }
-            }
-            if (sloped) hide(slope);
-        } else {
-            any = takeAway(scene, scene.surfaces[job.surface], look.shown, job.tile, shares);
-        }
+        const bool any = first ? leaveVisible(scene, look, job.tile, shares)
+                               : takeAway(scene, scene.surfaces[job.surface], look.shown, job.tile, shares);
         TilePlane& plane = first ? look.visible : look.passing;
         if (any) {
             settle(shares);

@@ -18,6 +18,12 @@ Result<Setting> setting(const Document& document, const Plan& plan, const Progra
     }
     const auto eye = attention(plan, request);
     if (!eye) return tl::unexpected(eye.error());
+    if (request.gaze == Gaze::fixed && !plan.input.camera) {
+        const Size size = document.scene.size();
+        const Point<CameraFrame> at = request.gazeAt;
+        if (!(at.x >= 0.0 && at.y >= 0.0 && at.x < size.width && at.y < size.height))
+            return fail(Fault::outOfRange, "The eye cannot be turned to a point outside the picture.");
+    }
     const bool blurs = plan.sweeps() || request.attending || plan.input.camera ||
                        std::ranges::any_of(plan.regions, [](const RegionPlan& region) {
                            return region.look == Look::blur && region.alreadyBlurred;

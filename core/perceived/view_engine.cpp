@@ -106,7 +106,6 @@ struct ViewEngine::State {
 
     void geometry(const Document& document, const Plan& plan, const ViewRequest& request, const view::Setting& setting);
     void surfaces(const Document& document, const ViewRequest& request, bool anew);
-    std::vector<Radiance> resizedShares(const Document& document) const;
     bool remasked(const Document& document, ViewRect rect) const;
     void addLight(const view::PowerLight& power, const std::vector<std::size_t>& takingPart,
                   const std::function<Looks(Metre, Dioptre)>& looksAt, int colours);
@@ -267,7 +266,9 @@ void ViewEngine::State::surfaces(const Document& now, const ViewRequest& asked, 
         if (anew || asked.scale != 1.0 || remasked(now, rect)) tiles.push_back(tile);
     }
     if (tiles.empty()) return;
-    const std::vector<Radiance> resized = scene.size == now.scene.size() ? std::vector<Radiance>{} : resizedShares(now);
+    const std::vector<Radiance> resized = scene.size == now.scene.size()
+                                              ? std::vector<Radiance>{}
+                                              : view::pictureShares(*cut, now.scene.size(), scene.size, threads);
     std::vector<std::vector<std::pair<std::size_t, ViewRect>>> changed(tiles.size());
     view::shareOut(static_cast<int>(tiles.size()), threads, [&](int i) {
         const auto n = static_cast<std::size_t>(i);
@@ -298,31 +299,6 @@ void ViewEngine::State::surfaces(const Document& now, const ViewRequest& asked, 
         for (const auto& [k, part] : one)
             scene.surfaces[k].changed.push_back(part);
     }
-}
-
-/// Each surface's shares of the whole picture, averaged to the view's size.
-std::vector<Radiance> ViewEngine::State::resizedShares(const Document& now) const {
-    const Size full = now.scene.size();
-    const view::TileCount tiles = view::tileCount(full);
-    const std::size_t width = static_cast<std::size_t>(full.width),
-                      count = width * static_cast<std::size_t>(full.height);
-    std::vector<std::vector<float>> shares(scene.surfaces.size(), std::vector<float>(count));
-    view::shareOut(tiles.count(), threads, [&](int tile) {
-        const ViewRect rect = tiles.rect(tile);
-        thread_local view::SceneCut::Tiles one;
-        cut->shares(rect.x0, rect.y0, one);
-        for (std::size_t k = 0; k < shares.size(); ++k) {
-            if (!one.touched[k]) continue;
-            for (int y = rect.y0; y < std::min(rect.y1, full.height); ++y) {
-                std::copy_n(one.values[k].data() + (y - rect.y0) * kTileW, std::min(kTileW, full.width - rect.x0),
-                            shares[k].data() + static_cast<std::size_t>(y) * width + static_cast<std::size_t>(rect.x0));
-            }
-        }
-    });
-    std::vector<Radiance> resized;
-    for (auto& share : shares)
-        resized.push_back(view::shrunk(Radiance(full, 1, std::move(share)), scene.size));
-    return resized;
 }
 
 /// A mask differs from the one of the view before somewhere under these pixels (of the picture).

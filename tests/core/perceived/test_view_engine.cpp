@@ -270,3 +270,20 @@ TEST_CASE("view engine: a finer rung is nearer to the finest") {
     CHECK(psnr(at(Rung::dragging), finest) > 38.0);
     CHECK(psnr(at(Rung::rest), finest) > psnr(at(Rung::dragging), finest));
 }
+
+TEST_CASE("view engine: an eye turned to a point outside the picture is refused, and the view before stays good") {
+    const Played p = played(desk(false));
+    ViewEngine engine(1);
+    const PerceivedView before = look(engine, p);
+    ViewRequest request;
+    request.gaze = Gaze::fixed;
+    for (const Point<CameraFrame> at : {Point<CameraFrame>{-1.0, 5.0}, {5.0, 1e9}, {std::nan(""), 5.0}}) {
+        request.gazeAt = at;
+        const auto seen = engine.see(p.document, p.plan, p.program, request);
+        REQUIRE_FALSE(seen);
+        CHECK(seen.error().what == "The eye cannot be turned to a point outside the picture.");
+    }
+    CHECK(identical(look(engine, p), before));
+    request.gazeAt = {20.0, 20.0};
+    CHECK(engine.see(p.document, p.plan, p.program, request));
+}
