@@ -247,7 +247,7 @@ bool EmulatedDaq::startInput(std::span<const std::uint8_t> data, std::int64_t no
 
 void EmulatedDaq::advance(std::int64_t now_ns) {
     advanceOutput(now_ns);
-    advanceInput(now_ns);
+    advanceInput(knownUntil_ ? std::min(now_ns, knownUntil_(now_ns)) : now_ns);
 }
 
 void EmulatedDaq::advanceOutput(std::int64_t now_ns) {

@@ -53,7 +53,11 @@ public:
     void unplugged(std::int64_t now_ns) override;
     std::optional<std::int64_t> backOnBusAt() const override { return backOnBus_ns_; }
 
-    void setInput(AnalogInput input) { input_ = std::move(input); }
+    /// `knownUntil`: up to when the input can be told, given now; samples later than that wait. Empty: up to now.
+    void setInput(AnalogInput input, std::function<std::int64_t(std::int64_t now_ns)> knownUntil = {}) {
+        input_ = std::move(input);
+        knownUntil_ = std::move(knownUntil);
+    }
     void setFaults(const std::vector<DeviceFault>& faults) { faults_ = FaultPlan(faults); }
 
     /// Every change of the outputs by `now_ns`, in order; the last 2^18 where nobody asked for them in time.
@@ -92,6 +96,7 @@ private:
     DaqOptions options_;
     FaultPlan faults_;
     AnalogInput input_;
+    std::function<std::int64_t(std::int64_t)> knownUntil_;
     Scan output_, sampling_;
     std::deque<std::uint8_t> outputFifo_, inputFifo_;
     std::array<std::uint8_t, 8> ranges_{};

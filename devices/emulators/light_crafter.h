@@ -80,6 +80,9 @@ public:
     /// TRIG_OUT_2, in order. A forgetful host loses the oldest beyond 4096.
     std::vector<TriggerEdge> takeTriggers(std::int64_t now_ns);
 
+    /// Until when nothing that is still to come can change light and triggers: a little before the next vertical sync
+    /// is due; `now_ns` where none is.
+    std::int64_t knownUntil(std::int64_t now_ns) const;
     bool patternMode(std::int64_t now_ns) const;
     bool running() const { return running_; }
     /// A command that erases or bricks the projector, or a LED current, has come in (devices.md 1.3: never).

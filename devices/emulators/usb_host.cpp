@@ -482,6 +482,8 @@ void UsbHost::Impl::attend(const std::stop_token& stop) {
         }
         // A while after it was pulled, so that nobody is half-way through opening it.
         const auto old = std::chrono::steady_clock::now() - std::chrono::seconds(1);
+        for (const auto& port : ports)
+            if (port->pulled) port->forgetClosed();
         const auto left = std::ranges::find_if(
             ports, [&](const auto& port) { return port->pulled && port->clients.empty() && port->pulledAt < old; });
         if (left != ports.end()) {

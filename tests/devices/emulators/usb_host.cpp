@@ -4,14 +4,19 @@
 #include <libusb.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "devices/emulators/daq.h"
 #include "devices/emulators/light_crafter.h"
 #include "devices/emulators/usb_host.h"
+#include "tests/support/run_program.h"
 
 using namespace ilf;
 using namespace ilf::devices::emulators;
@@ -20,7 +25,10 @@ namespace {
 
 /// One bus for the whole executable: umockdev allows one in a process. None where it is not preloaded.
 UsbHost* bus() {
-    static const Result<std::unique_ptr<UsbHost>> host = UsbHost::started();
+    // Its time goes on by a fifth of a millisecond whenever a device is asked something, so that nothing here depends
+    // on how busy the machine is.
+    static std::atomic<std::int64_t> time_ns{0};
+    static const Result<std::unique_ptr<UsbHost>> host = UsbHost::started([] { return time_ns += 200'000; });
     if (host) return host->get();
     MESSAGE("SKIPPED: ", host.error().what);
     return nullptr;
@@ -174,7 +182,17 @@ TEST_CASE("usb: an interface another program holds is busy") {
     CHECK(libusb_claim_interface(handle, 0) == LIBUSB_ERROR_BUSY);
     bus()->setBusy("1-5", false);
     CHECK(libusb_claim_interface(handle, 0) == 0);
-    libusb_close(handle);
+    libusb_device_handle* second = usb.open(0x09DB, 0x00E8);
+    REQUIRE(second != nullptr);
+    CHECK(libusb_claim_interface(second, 0) == LIBUSB_ERROR_BUSY);
+    libusb_close(handle);  // without releasing it, as a program that was killed
+    int claimed = LIBUSB_ERROR_BUSY;
+    for (int i = 0; i < 500 && claimed == LIBUSB_ERROR_BUSY; ++i) {
+        claimed = libusb_claim_interface(second, 0);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    CHECK(claimed == 0);
+    libusb_close(second);
 }
 
 TEST_CASE("usb: samples sent in bulk before and during a scan come out of the converter in order") {
@@ -202,7 +220,7 @@ TEST_CASE("usb: samples sent in bulk before and during a scan come out of the co
     CHECK(moved == int(samples.size()) - 8192);
 
     std::array<unsigned char, 2> status = {8, 0};
-    for (int i = 0; i < 300 && (status[0] & 8U) != 0; ++i)
+    for (int i = 0; i < 1000 && (status[0] & 8U) != 0; ++i)
         CHECK(libusb_control_transfer(handle, 0xC0, 0x44, 0, 0, status.data(), 2, 1000) == 2);
     CHECK((status[0] & 8U) == 0);
     CHECK(libusb_control_transfer(handle, 0xC0, 0x99, 0, 0, status.data(), 2, 1000) == LIBUSB_ERROR_PIPE);
@@ -229,4 +247,58 @@ TEST_CASE("usb: what is no place, and a place that is taken, is refused") {
     const Plugged plugged("1-7", projector);
     CHECK_FALSE(bus()->plug("1-7", other));
     CHECK_FALSE(bus()->plug("1-7.1", other));
+}
+
+TEST_CASE("usb: a child process reads the projector's version" * doctest::skip()) {
+    const Libusb usb;  // run by the test below, in a process of its own: the bus is its parent's
+    libusb_device_handle* handle = usb.open(0x0451, 0x6401);
+    REQUIRE(handle != nullptr);
+    libusb_set_auto_detach_kernel_driver(handle, 1);
+    REQUIRE(libusb_claim_interface(handle, 0) == 0);
+    int moved = 0;
+    Report reply{};
+    for (int i = 0; i < 20; ++i) {
+        REQUIRE(send(handle, request({0xC0, i, 2, 0, 0x05, 0x02}), moved) == 0);
+        REQUIRE(receive(handle, reply, moved) == 0);
+        REQUIRE(reply[1] == i);
+        REQUIRE(reply[2] == 16);
+    }
+    libusb_close(handle);
+}
+
+TEST_CASE("usb: programs started from here see the bus too") {
+    if (bus() == nullptr) return;
+    EmulatedLightCrafter projector;
+    const Plugged plugged("1-8", projector);
+    const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+    const Ran ran = runProgram(self, "--no-skip '--test-case=usb: a child process*' 2>&1");
+    CHECK_MESSAGE(ran.code == 0, ran.out);
+    std::size_t messages = 0;
+    bus()->locked([&](std::int64_t) { messages = projector.messages(); });
+    CHECK(messages == 20);
+}
+
+TEST_CASE("usb: plugged and pulled again and again, the bus keeps no files open") {
+    if (bus() == nullptr) return;
+    const auto openFiles = [] {
+        int count = 0;
+        for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator("/proc/self/fd"))
+            ++count;
+        return count;
+    };
+    EmulatedLightCrafter projector;
+    const Libusb usb;
+    int before = 0;
+    for (int i = 0; i < 30; ++i) {
+        const Plugged plugged("1-9", projector);
+        libusb_device_handle* handle = usb.open(0x0451, 0x6401);
+        REQUIRE(handle != nullptr);
+        libusb_close(handle);
+        if (i == 0) before = openFiles();
+    }
+    // What was pulled is let go of a second later.
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (openFiles() > before + 4 && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    CHECK(openFiles() <= before + 4);
 }
