@@ -111,6 +111,13 @@ bool SceneCut::sameBut(const SceneCut& other) const {
     });
 }
 
+bool SceneCut::sameShares(const SceneCut& other) const {
+    if (size_ != other.size_ || surfaces_.size() != other.surfaces_.size()) return false;
+    return std::ranges::equal(parts_, other.parts_, [](const Part& a, const Part& b) {
+        return a.region->id == b.region->id && a.constant >= 0 && a.constant == b.constant;
+    });
+}
+
 SceneCut::BetweenBands SceneCut::between(const Part& part, int x, int y) const {
     double vergence = 0.5 * (part.nearest + part.farthest);  // at holes of a depth map
     if (!part.fromDepth) {

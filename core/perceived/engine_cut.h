@@ -36,6 +36,8 @@ public:
 
     /// The same cut, over other masks.
     bool sameBut(const SceneCut& other) const;
+    /// Surfaces may lie elsewhere, but where masks are the same each shows the same of every point.
+    bool sameShares(const SceneCut& other) const;
 
 private:
     /// A region that takes part, topmost first.

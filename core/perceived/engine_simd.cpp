@@ -450,6 +450,26 @@ void shareHere(float* HWY_RESTRICT into, const float* HWY_RESTRICT by, bool firs
     }
 }
 
+void shareWithinHere(float* HWY_RESTRICT into, const float* HWY_RESTRICT by) {
+    const Floats d;
+    const int n = static_cast<int>(hn::Lanes(d));
+    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0F);
+    for (int i = 0; i < kTilePixels; i += n)
+        hn::StoreU(hn::Mul(hn::LoadU(d, into + i), hn::Min(hn::Max(hn::LoadU(d, by + i), zero), one)), d, into + i);
+}
+
+void settleHere(float* HWY_RESTRICT tile, float rounding) {
+    const Floats d;
+    const int n = static_cast<int>(hn::Lanes(d));
+    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0F);
+    const auto least = hn::Set(d, rounding), most = hn::Set(d, 1.0F - rounding);
+    for (int i = 0; i < kTilePixels; i += n) {
+        auto value = hn::LoadU(d, tile + i);
+        value = hn::IfThenElse(hn::Gt(value, most), one, hn::IfThenElse(hn::Lt(value, least), zero, value));
+        hn::StoreU(value, d, tile + i);
+    }
+}
+
 }  // namespace ilf::view::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -467,6 +487,8 @@ HWY_EXPORT(keepTileHere);
 HWY_EXPORT(fromBytesHere);
 HWY_EXPORT(coverageHere);
 HWY_EXPORT(shareHere);
+HWY_EXPORT(shareWithinHere);
+HWY_EXPORT(settleHere);
 
 void prefixSums(float* sums, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
                 int valueStride) {
@@ -507,5 +529,7 @@ void coverage(float* out, int outStride, int width, int rows, const std::array<c
     HWY_DYNAMIC_DISPATCH(coverageHere)(out, outStride, width, rows, inTiles, scale);
 }
 void share(float* into, const float* by, bool first) { HWY_DYNAMIC_DISPATCH(shareHere)(into, by, first); }
+void shareWithin(float* into, const float* by) { HWY_DYNAMIC_DISPATCH(shareWithinHere)(into, by); }
+void settle(float* tile, float rounding) { HWY_DYNAMIC_DISPATCH(settleHere)(tile, rounding); }
 }  // namespace ilf::view
 #endif

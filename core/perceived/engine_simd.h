@@ -31,6 +31,12 @@ void coverage(float* out, int outStride, int width, int rows, const std::array<c
 /// into *= by over one tile, or into = by if `first`.
 void share(float* into, const float* by, bool first);
 
+/// into *= by, which is kept within 0 ... 1, over one tile.
+void shareWithin(float* into, const float* by);
+
+/// Numbers of one tile within `rounding` of 0 and 1 become 0 and 1.
+void settle(float* tile, float rounding);
+
 /// sums[y + 1] = sums[y] + mask[y] * values[y] for `rows` rows of `width` numbers; row 0 is set to 0. A null `mask`
 /// is 1.
 void prefixSums(float* sums, int stride, int width, int rows, const float* mask, int maskStride, const float* values,

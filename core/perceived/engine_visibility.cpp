@@ -61,12 +61,8 @@ bool takeAway(const EngineScene& scene, const EngineSurface& surface, const Show
     return true;
 }
 
-/// Shares within rounding of 0 and 1 are 0 and 1: most tiles are then uniform.
-void settle(std::array<float, kTilePixels>& shares) {
-    constexpr float kNone = 1e-4F;
-    for (float& share : shares)
-        share = share < kNone ? 0.0F : share > 1.0F - kNone ? 1.0F : share;
-}
+/// Shares this near to 0 and 1 are so but for rounding: most tiles are then uniform.
+constexpr float kRounding = 1e-4F;
 
 /// One tile of averages of what `planes` cover, or of `values` under it; dark where nothing does.
 void averageInto(PaddedPlane& into, int coarse, ViewRect rect, const Covered& covered, const PaddedPlane* values) {
@@ -144,10 +140,7 @@ bool leaveVisible(const EngineScene& scene, const EngineLook& look, int tile, st
     std::array<float, kTilePixels> one, slope;
     slope.fill(1.0F);
     bool any = false, sloped = false;
-    const auto hide = [&](const std::array<float, kTilePixels>& left) {
-        for (std::size_t p = 0; p < shares.size(); ++p)
-            shares[p] *= std::clamp(left[p], 0.0F, 1.0F);
-    };
+    const auto hide = [&](const std::array<float, kTilePixels>& left) { shareWithin(shares.data(), left.data()); };
     for (const Before& before : look.visibleBehind) {
         const EngineSurface& nearer = scene.surfaces[static_cast<std::size_t>(before.nearer)];
         if (!nearer.sloped) one.fill(1.0F);
@@ -234,7 +227,7 @@ void updateVisibility(EngineScene& scene, bool all, int threads) {
                                : takeAway(scene, scene.surfaces[job.surface], look.shown, job.tile, shares);
         TilePlane& plane = first ? look.visible : look.passing;
         if (any) {
-            settle(shares);
+            settle(shares.data(), kRounding);
             changed[n] = plane.set(job.tile, shares.data());
         } else {
             changed[n] = plane.fill(job.tile, 1.0F);

@@ -105,7 +105,7 @@ struct ViewEngine::State {
     view::PupilShift shift;
 
     void geometry(const Document& document, const Plan& plan, const ViewRequest& request, const view::Setting& setting);
-    void surfaces(const Document& document, const ViewRequest& request, bool anew);
+    void surfaces(const Document& document, const ViewRequest& request, bool moved, bool anew);
     bool remasked(const Document& document, ViewRect rect) const;
     void addLight(const view::PowerLight& power, const std::vector<std::size_t>& takingPart,
                   const std::function<Looks(Metre, Dioptre)>& looksAt, int colours);
@@ -247,8 +247,8 @@ int ViewEngine::State::cellsAcross() const {
 }
 
 /// At full size tile by tile where masks changed; at others all of it, and then what differs.
-void ViewEngine::State::surfaces(const Document& now, const ViewRequest& asked, bool anew) {
-    if (anew) {
+void ViewEngine::State::surfaces(const Document& now, const ViewRequest& asked, bool moved, bool anew) {
+    if (moved) {
         scene.surfaces.resize(cut->surfaces().size());
         for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
             EngineSurface& made = scene.surfaces[k];
@@ -428,9 +428,10 @@ Result<PerceivedView> ViewEngine::see(const Document& document, const Plan& plan
         const bool geometry = all || shift != s.shift || !samePlan || !sameRequest || !s.cut || !s.cut->sameBut(cut) ||
                               s.document.scene.scale != document.scene.scale || s.document.wearer != document.wearer ||
                               s.document.rig != document.rig;
+        const bool reshared = all || !s.cut || !s.cut->sameShares(cut);
         s.cut = std::move(cut);
         s.shift = shift;
-        s.surfaces(document, request, geometry);
+        s.surfaces(document, request, geometry, reshared);
         if (geometry) {
             s.geometry(document, plan, request, *setting);
             all = true;
