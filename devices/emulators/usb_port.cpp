@@ -1,0 +1,171 @@
+#include "devices/emulators/usb_port.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <set>
+
+namespace ilf::devices::emulators {
+
+/// Forgets programs that have closed their file. umockdev tells nobody of it: its signal "client-vanished" is declared
+/// and never sent (0.17.16).
+void UsbPort::forgetClosed() {
+    std::erase_if(clients,
+                  [](const auto& entry) { return umockdev_ioctl_client_get_connected(entry.first.get()) == FALSE; });
+}
+
+// Ioctls of usbdevfs; linux/usbdevice_fs.h and the kernel's documentation of it.
+Outcome UsbPort::answer(UMockdevIoctlClient* client, bool& known) {
+    UMockdevIoctlData* arg = umockdev_ioctl_client_get_arg(client);
+    const unsigned long request = umockdev_ioctl_client_get_request(client);
+    if (gone) return {-1, ENODEV};
+    auto entry = std::ranges::find_if(clients, [&](const auto& known_) { return known_.first.get() == client; });
+    if (entry == clients.end()) {
+        forgetClosed();
+        entry = clients.emplace(clients.end(), Owned<UMockdevIoctlClient>(client), Client{});
+        g_object_ref(client);
+    }
+    Client& program = entry->second;
+    switch (request) {
+    case USBDEVFS_GET_CAPABILITIES: {
+        const IoctlData capabilities = resolved(arg, 0, sizeof(std::uint32_t));
+        as<std::uint32_t>(capabilities) = USBDEVFS_CAP_ZERO_PACKET;
+        return {0, 0};
+    }
+    case USBDEVFS_CLAIMINTERFACE:
+        return claim(program);
+    case USBDEVFS_RELEASEINTERFACE:
+        program.claimed = false;
+        return {0, 0};
+    case USBDEVFS_DISCONNECT_CLAIM:
+        kernelDriver = false;
+        return claim(program);
+    case USBDEVFS_GETDRIVER: {
+        if (!kernelDriver) return {-1, ENODATA};
+        const IoctlData driver = resolved(arg, 0, sizeof(usbdevfs_getdriver));
+        descriptors.kernelDriver.copy(as<usbdevfs_getdriver>(driver).driver, USBDEVFS_MAXDRIVERNAME);
+        return {0, 0};
+    }
+    case USBDEVFS_IOCTL: {
+        const IoctlData call = resolved(arg, 0, sizeof(usbdevfs_ioctl));
+        const int code = as<usbdevfs_ioctl>(call).ioctl_code;
+        const bool connects = code == int(USBDEVFS_CONNECT);
+        if (!connects && code != int(USBDEVFS_DISCONNECT)) return {-1, ENOTTY};
+        if (!connects && !kernelDriver) return {-1, ENODATA};
+        kernelDriver = connects && !descriptors.kernelDriver.empty();
+        return {0, 0};
+    }
+    case USBDEVFS_SUBMITURB:
+        return submit(program, arg);
+    case USBDEVFS_REAPURB:
+    case USBDEVFS_REAPURBNDELAY:
+        return reap(program, arg);
+    case USBDEVFS_DISCARDURB:
+        return discard(program, *reinterpret_cast<void**>(arg->data));
+    case USBDEVFS_CLEAR_HALT: {
+        const IoctlData endpoint = resolved(arg, 0, sizeof(unsigned));
+        device->clearHalt(static_cast<std::uint8_t>(as<unsigned>(endpoint)), now_ns());
+        return {0, 0};
+    }
+    case USBDEVFS_SETCONFIGURATION:
+    case USBDEVFS_SETINTERFACE:
+    case USBDEVFS_RESET:
+        return {0, 0};
+    default:
+        known = false;
+        return {-1, ENOTTY};
+    }
+}
+
+Outcome UsbPort::claim(Client& client) {
+    forgetClosed();
+    const bool taken = std::ranges::any_of(
+        clients, [&](const auto& other) { return &other.second != &client && other.second.claimed; });
+    if (taken || kernelDriver || busy) return {-1, EBUSY};
+    client.claimed = true;
+    return {0, 0};
+}
+
+Outcome UsbPort::submit(Client& client, UMockdevIoctlData* arg) {
+    constexpr int kLongest = 1 << 20;
+    Urb urb;
+    urb.data = resolved(arg, 0, sizeof(usbdevfs_urb));
+    if (!urb.data) return {-1, EFAULT};
+    const int length = urb.fields().buffer_length;
+    if (length < 0 || length > kLongest || urb.fields().type == USBDEVFS_URB_TYPE_ISO) return {-1, EINVAL};
+    if (length > 0) urb.buffer = resolved(urb.data.get(), offsetof(usbdevfs_urb, buffer), std::size_t(length));
+    if (urb.isControl() && length < 8) return {-1, EINVAL};
+    if (!urb.isControl() && !client.claimed) return {-1, EINVAL};
+    client.urbs.push_back(std::move(urb));
+    ++*transfers;
+    progress(client);
+    return gone ? Outcome{-1, ENODEV} : Outcome{0, 0};
+}
+
+/// Of each endpoint the oldest transfer that is not done goes on as far as the device lets it.
+void UsbPort::progress(Client& client) {
+    std::set<unsigned> waiting;
+    for (Urb& urb : client.urbs) {
+        if (gone) return;
+        const unsigned endpoint = urb.isControl() ? 0U : urb.fields().endpoint;
+        if (urb.done || waiting.contains(endpoint)) continue;
+        progress(urb);
+        if (!urb.done) waiting.insert(endpoint);
+    }
+}
+
+void UsbPort::progress(Urb& urb) {
+    const std::span<std::uint8_t> bytes = urb.bytes();
+    const std::int64_t now = now_ns();
+    const std::uint8_t endpoint = urb.fields().endpoint;
+    UsbTransfer transfer;
+    if (urb.isControl()) {
+        const auto word = [&](std::size_t offset) {
+            return static_cast<std::uint16_t>(bytes[offset] + 256U * bytes[offset + 1]);
+        };
+        const ControlSetup setup{bytes[0], bytes[1], word(2), word(4), word(6)};
+        const auto data = bytes.subspan(8, std::min<std::size_t>(bytes.size() - 8, setup.length));
+        transfer = controlTransfer(*device, descriptors, setup, data, now);
+    } else if ((endpoint & 0x80U) != 0) {
+        transfer = device->in(endpoint, bytes.subspan(urb.moved), now);
+    } else {
+        transfer = device->out(endpoint, bytes.subspan(urb.moved), now);
+    }
+    urb.moved += transfer.bytes;
+    switch (transfer.answer) {
+    case UsbAnswer::done:
+        urb.finish(0);
+        break;
+    case UsbAnswer::stall:
+        urb.finish(-EPIPE);
+        break;
+    case UsbAnswer::busy:
+        break;
+    case UsbAnswer::gone:
+        gone = true;
+        onGone(*this);
+        break;
+    }
+}
+
+Outcome UsbPort::reap(Client& client, UMockdevIoctlData* arg) {
+    progress(client);
+    if (gone) return {-1, ENODEV};
+    const auto done = std::ranges::find_if(client.urbs, &Urb::done);
+    if (done == client.urbs.end()) return {-1, EAGAIN};
+    const IoctlData pointer = resolved(arg, 0, sizeof(void*));
+    umockdev_ioctl_data_set_ptr(pointer.get(), 0, done->data.get());
+    client.urbs.erase(done);
+    return {0, 0};
+}
+
+Outcome UsbPort::discard(Client& client, const void* address) {
+    for (Urb& urb : client.urbs) {
+        if (urb.done || urb.data->client_addr != reinterpret_cast<gulong>(address)) continue;
+        urb.finish(-ENOENT);
+        return {0, 0};
+    }
+    return {-1, EINVAL};
+}
+
+}  // namespace ilf::devices::emulators
