@@ -125,7 +125,7 @@ struct FakeDac {
     double inputsSince = 0.0;
 };
 
-class FakeDacLink final : public UsbLink {
+class FakeDacLink : public UsbLink {
 public:
     explicit FakeDacLink(FakeDac& dac) : dac_(dac) {}
 

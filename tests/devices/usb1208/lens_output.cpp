@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stop_token>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include "tests/devices/usb1208/fake_dac.h"
 
@@ -200,6 +203,59 @@ TEST_CASE("lens output: at rest, outputs that move or run by themselves are noti
     CHECK(rests(dac));
 }
 
+TEST_CASE("lens output: samples are made on a thread of their own while waves swap, slip and come to rest") {
+    /// A device that takes whatever it is given, as fast as a thread can make it.
+    class Greedy final : public FakeDacLink {
+    public:
+        explicit Greedy(FakeDac& dac) : FakeDacLink(dac) {}
+        Result<void> controlOut(const VendorRequest& r, std::span<const std::uint8_t>, Milliseconds) override {
+            if (r.request == 0x1A || r.request == 0x1B) runs_ = r.request == 0x1A;
+            return {};
+        }
+        Result<Bytes> controlIn(const VendorRequest& r, std::size_t, Milliseconds) override {
+            if (r.request != 0x44) return fail(Fault::device, "the request stalled");
+            return Bytes{static_cast<std::uint8_t>(runs_ ? 0x08 : 0x00), 0};
+        }
+        Result<std::unique_ptr<UsbStream>> streamOut(Endpoint, std::size_t bytes, int,
+                                                     std::function<void(std::span<std::uint8_t>)> fill) override {
+            struct Stream final : UsbStream {
+                std::jthread thread;
+                Result<void> state() const override { return {}; }
+            };
+            auto stream = std::make_unique<Stream>();
+            stream->thread = std::jthread([bytes, fill = std::move(fill)](const std::stop_token& stop) {
+                Bytes buffer(bytes);
+                while (!stop.stop_requested())
+                    fill(buffer);
+            });
+            return stream;
+        }
+
+    private:
+        bool runs_ = false;
+    };
+    FakeDac dac;
+    const auto output = LensOutput::open(std::make_shared<Greedy>(dac), setup(), dac.clock());
+    REQUIRE(output);
+    std::int64_t most = 0;
+    for (int round = 0; round < 5; ++round) {
+        int swaps = 0;
+        for (int i = 0; i < 200; ++i) {
+            // While one wave still fades into another, the next is refused.
+            if ((*output)->play(driven(50.0 + i % 7 * 20.0), driven(-100.0))) ++swaps;
+            REQUIRE((*output)->slip(i % 3 - 1));
+            const auto report = (*output)->heartbeat();
+            REQUIRE(report);
+            CHECK(abs(report->left) <= mA(250.0));
+            (*output)->placeOf(static_cast<double>(report->frames));
+            most = std::max(most, report->frames);
+        }
+        CHECK(swaps > 0);
+        REQUIRE((*output)->safe());
+    }
+    CHECK(most > 0);
+}
+
 TEST_CASE("lens output: a resting current beyond the amplifier is refused before anything is told") {
     FakeDac dac;
     auto bad = setup();
@@ -210,7 +266,8 @@ TEST_CASE("lens output: a resting current beyond the amplifier is refused before
 }
 
 TEST_CASE("lens output: whichever call fails, there is an error or nothing was lost, and the lenses are at rest") {
-    const auto scenario = [](FakeDac& dac) -> Result<void> {
+    bool restsFirst = false;
+    const auto scenario = [&](FakeDac& dac) -> Result<void> {
         auto output = opened(dac);
         if (!output) return tl::unexpected(output.error());
         auto& lenses = **output;
@@ -222,14 +279,16 @@ TEST_CASE("lens output: whichever call fails, there is an error or nothing was l
             .and_then([&](auto) { return pass(), lenses.heartbeat(); })
             .and_then([&](auto) { return lenses.play(driven(100.0, 50.0_Hz), driven(150.0, 50.0_Hz)); })
             .and_then([&](auto) { return pass(), lenses.heartbeat(); })
-            .and_then([&](auto) { return lenses.safe(); });
+            .and_then([&](auto) { return restsFirst ? lenses.safe() : Result<void>(); });
     };
-    for (const bool forGood : {false, true}) {
+    for (const auto& [forGood, rested] : {std::pair(false, false), std::pair(false, true), std::pair(true, true)}) {
+        restsFirst = rested;
         bool passed = false;
         int failing = 1, errors = 0;
         for (; !passed; ++failing) {
             CAPTURE(failing);
-            CAPTURE(forGood);
+            const bool gone = forGood;
+            CAPTURE(gone);
             FakeDac dac;
             dac.failsAt = failing;
             dac.goneForGood = forGood;
