@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "app/exit_code.h"
+#include "app/headless/doctor_command.h"
 #include "app/headless/evaluate_command.h"
 #include "app/headless/lens_command.h"
 #include "app/headless/optics_command.h"
@@ -176,6 +177,27 @@ void addSeams(CLI::App& app, SeamsOptions& options) {
     addLensChoice(*seams, options.lens);
 }
 
+void addDoctor(CLI::App& app, DoctorOptions& options) {
+    auto* doctor = app.add_subcommand("doctor", "What is attached, whether it can be used, and what to do");
+    doctor->footer(
+        "Exit codes: 0 nothing wrong or nothing attached, 3 a device is there but cannot be used.\n"
+        "Reads only. While an output core runs, devices are not asked how they are, unless with --ask.\n"
+        "JSON: devices (kind, state, usable, name, where, node, usb, product, serial, firmware, mode,\n"
+        "held_by, troubles, remarks), machine (id, standing, what, help, commands), output_core (running,\n"
+        "processes), looked_for (usb, name, kind, driven), exit_code. States: ready, not-asked, in-our-use,\n"
+        "no-permission, busy, silent, trouble, unsupported, gone. Standings: good, missing, unknown.");
+    auto* json = doctor->add_flag("--json", options.json, "As JSON");
+    auto* ask = doctor->add_flag("--ask", options.ask,
+                                 "Asks devices even while an output core runs, except those it plays on: patterns that "
+                                 "a projector shows are disturbed for a moment");
+    doctor
+        ->add_flag("--install-rules", options.installRules,
+                   "Installs the udev rules (as root), or prints the commands that do")
+        ->excludes(json)
+        ->excludes(ask);
+    doctor->add_option("--root", options.root, "Another system's files, for tests")->group("");
+}
+
 void addStudio(CLI::App& app, StudioOptions& options, std::string& lens) {
     app.add_option("FILE", options.file, "Project, picture or video to open");
     app.add_option("--scale", options.scale, "Size of the window's text and controls (0: the display's own)")
@@ -202,6 +224,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(0, 1);
     bool listBindings = false;
     app.add_flag("--list-bindings", listBindings, "Every command with its keys");
+    bool listDevices = false;
+    app.add_flag("--list-devices", listDevices, "One line for each attached device: kind, state, name, where");
 
     StudioOptions studio;
     PlanOptions plan;
@@ -223,6 +247,8 @@ int main(int argc, char** argv) {
     SeamsOptions seams;
     addSeams(app, seams);
     addLens(app, lens);
+    DoctorOptions doctor;
+    addDoctor(app, doctor);
     LensChoice validatedLens;
     auto* validate =
         app.add_subcommand("validate", "Opens, plans and compiles a project and says what is wrong with it");
@@ -240,6 +266,8 @@ int main(int argc, char** argv) {
             std::cout << ilf::ui::bindingsText();
             return kDone;
         }
+        if (listDevices) return listDevicesCommand();
+        if (app.got_subcommand("doctor")) return doctorCommand(doctor);
         studio.coreProgram = run.coreProgram = ilf::devices::coreExecutable().string();
         if (app.got_subcommand("plan")) return planCommand(plan);
         if (app.got_subcommand("render")) return renderCommand(render);

@@ -1,0 +1,30 @@
+// The udev rules that let this user's programs open the devices, and how they get onto the machine.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "devices/survey/system_files.h"
+
+namespace ilf::devices {
+
+/// Text of resources/udev/70-illuminatedfocus.rules, as it was when this was built.
+std::string udevRules();
+
+struct InstalledRules {
+    std::filesystem::path file;  ///< empty: none
+    bool same = false;           ///< as the ones of this version
+};
+/// Looks where udev does; a file in /etc hides one of the same name in /usr/lib.
+InstalledRules installedRules(const SystemPlaces& places);
+
+/// What somebody who may become root types, line by line. `program` is the one that runs now.
+std::string rulesByHand(const std::filesystem::path& program);
+
+/// Writes the rules whole or not at all, then lets udev read them and look at what is plugged in, where udevadm is
+/// there. Gives sentences of what was done. Errors: `cannotWrite`.
+Result<std::vector<std::string>> installRules(const SystemPlaces& places);
+
+}  // namespace ilf::devices
