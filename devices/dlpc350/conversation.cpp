@@ -96,13 +96,20 @@ Result<Reply> Conversation::nextReply(Command command, bool isRead) {
 }
 
 void Conversation::drained() {
+    if (mayBeHalted_) {
+        // Harmless where nothing stalled; where the board is gone, the next message says so.
+        (void)link_->clearHalt(out_);
+        (void)link_->clearHalt(in_);
+        mayBeHalted_ = false;
+    }
     for (int i = 0; i < kMostOldReplies; ++i)
         if (!link_->receive(in_, kPacketBytes, kDrainLimit)) return;
 }
 
 Error Conversation::about(const Error& error) const { return {Fault::device, name_ + ": " + error.what}; }
 
-tl::unexpected<Error> Conversation::silent(Command command, const Error& why) const {
+tl::unexpected<Error> Conversation::silent(Command command, const Error& why) {
+    mayBeHalted_ = true;
     return fail(Fault::device, name_ + " did not answer " + quotedName(command) + ": " + why.what +
                                    " If it is plugged in and stays silent, switch its power off and on.");
 }

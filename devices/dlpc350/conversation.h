@@ -38,13 +38,14 @@ private:
     Result<void> sent(Command command, std::span<const Packet> packets);
     void drained();
     Error about(const Error& error) const;
-    tl::unexpected<Error> silent(Command command, const Error& why) const;
+    tl::unexpected<Error> silent(Command command, const Error& why);
 
     std::unique_ptr<UsbLink> link_;
     Endpoint out_, in_;
     std::string name_;
     std::uint8_t sequence_ = 0;
-    bool unsettled_ = true;  ///< an answer of an earlier message, or of an earlier program, may still come
+    bool mayBeHalted_ = false;  ///< a transfer failed: an endpoint that stalled stays so until it is told
+    bool unsettled_ = true;     ///< an answer of an earlier message, or of an earlier program, may still come
 };
 
 }  // namespace ilf::devices::dlpc350
