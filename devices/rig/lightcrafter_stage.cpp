@@ -1,0 +1,142 @@
+#include "devices/rig/lightcrafter_stage.h"
+
+#include <cmath>
+
+#include "devices/simulated/simulated_stage.h"  // kSettledLens
+
+namespace ilf::devices {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Of video nobody measured: the slowest there is.
+constexpr Second kLongestFrame = 40.0_ms;
+// Half of what separates 59.94 from 60 Hz. What is left is the phase lock's to judge.
+constexpr double kMostOff = 500e-6;
+constexpr Second kListenEvery = 20.0_ms;
+// Fitting takes 0.4 s, aligning and settling as long again; an echo is heard in half a second.
+constexpr std::chrono::nanoseconds kLongestLocking = 5s;
+
+std::chrono::nanoseconds inNs(Second time) { return std::chrono::nanoseconds(std::llround(time.si() * 1e9)); }
+
+}  // namespace
+
+LightCrafterStage::~LightCrafterStage() {
+    if (projector_ || lens_) safeLight();
+}
+
+Result<void> LightCrafterStage::load(const Program& program) {
+    loaded_.reset();
+    if (auto ok = checked(program); !ok) return ok;
+    auto frame = rig_.packed(program);
+    if (!frame) return tl::unexpected(frame.error());
+    loaded_ = Loaded{program, *std::move(frame)};
+    return {};
+}
+
+bool LightCrafterStage::playsLikeLoaded() const {
+    return light_ == Light::slotted && told_ == loaded_->program.waveform && running_ == loaded_->frame.sequence &&
+           ahead_ == loaded_->program.projectorDelay;
+}
+
+Result<void> LightCrafterStage::swap() {
+    if (!loaded_) return fail(Fault::device, "Nothing is loaded that could be put on show.");
+    const bool only = playsLikeLoaded();
+    auto done = only ? published(loaded_->frame.picture) : began();
+    if (done) done = confirmed();
+    if (!done) return faulted(done.error());
+    return {};
+}
+
+Result<void> LightCrafterStage::began() {
+    const auto& [program, frame] = *loaded_;
+    safeTold_ = false;
+    if (light_ == Light::slotted) {
+        if (auto white = published(white_); !white) return white;
+        light_ = Light::white;
+    }
+    if (auto there = reached(program.waveform.rest); !there) return there;
+    if (auto well = videoWell(); !well) return well;
+    const double off = mode_.refresh / program.waveform.rate - 1.0;
+    if (mode_.refresh > 0.0_Hz && std::abs(off) > kMostOff)
+        return fail(Fault::device, "The projector's video comes at " + std::to_string(mode_.refresh.si()) +
+                                       " Hz, the program sweeps at " + std::to_string(program.waveform.rate.si()) +
+                                       " Hz; set the display to that rate (59.94 is not 60).");
+    if (frame.picture.size() != mode_.size)
+        return fail(Fault::device,
+                    "The projector's display does not have the mode its slots are packed for; set 912x1140.");
+    if (auto settled = lensSettled(program.waveform, program.projectorDelay); !settled) return settled;
+    if (auto run = patternsRun(frame.sequence); !run) return run;
+    if (auto locked = inStep(); !locked) return locked;
+    if (auto well = confirmed(); !well) return well;
+    light_ = Light::slotted;  // even if the order fails: it may have got through
+    return published(frame.picture);
+}
+
+Result<void> LightCrafterStage::published(const VideoFrame& frame) {
+    const auto out = rig_.video->show(frame);
+    if (!out) return tl::unexpected(out.error());
+    const Second period = mode_.refresh > 0.0_Hz ? 1.0 / mode_.refresh : kLongestFrame;
+    lightBegan_ = out->at + inNs(running_ ? period : 0.0_s);
+    waitUntil(lightBegan_);
+    return {};
+}
+
+Result<void> LightCrafterStage::lensSettled(const Waveform& wave, Second triggerAhead) {
+    if (told_ != wave || ahead_ != triggerAhead) {
+        resting_ = false;
+        told_ = wave;  // whatever becomes of the order
+        ahead_ = triggerAhead;
+        const auto alone = lens_->play(wave, triggerAhead);
+        if (!alone) return lensFailed(alone.error());
+        wait(*alone);
+        const std::int64_t now = rig_.clock.now().count();
+        predicted_ = predicted_.told(wave, now);
+        settling_ = Second::fromSi(static_cast<double>(predicted_.settledNs(kSettledLens) - now) * 1e-9);
+        phase_.reset();
+    }
+    waitUntil(std::chrono::nanoseconds(predicted_.settledNs(kSettledLens)));
+    return {};
+}
+
+Result<void> LightCrafterStage::patternsRun(const dlpc350::PatternSequence& sequence) {
+    if (running_ == sequence) return {};
+    running_.reset();
+    light_ = Light::unknown;  // dark while it is arranged
+    if (auto started = projector_->start(sequence); !started) return started;
+    running_ = sequence;
+    light_ = Light::white;
+    return {};
+}
+
+/// Follows the projector's triggers until the sweep is locked to them and has settled where they moved it.
+Result<void> LightCrafterStage::inStep() {
+    if (told_->still()) return {};
+    const auto begun = rig_.clock.now();
+    auto unlocked = begun;
+    while (true) {
+        const auto phase = lens_->follow();
+        if (!phase) return lensFailed(phase.error());
+        phase_ = *phase;
+        const auto now = rig_.clock.now();
+        if (!phase->locked) unlocked = now;
+        if (now - unlocked > inNs(settling_) && phase->locked) break;
+        if (now - begun > kLongestLocking)
+            return fail(Fault::device, "The lens's sweep does not lock to the projector's triggers; check the cable "
+                                       "from TRIG_OUT_2 to the DAC box, and the echo's wire.");
+        wait(kListenEvery);
+    }
+    lockedSince_ = rig_.clock.now();
+    return {};
+}
+
+void LightCrafterStage::wait(Second time) {
+    if (time > 0.0_s) rig_.clock.wait(inNs(time));
+}
+
+void LightCrafterStage::waitUntil(std::chrono::nanoseconds time) {
+    const auto now = rig_.clock.now();
+    if (time > now) rig_.clock.wait(time - now);
+}
+
+}  // namespace ilf::devices

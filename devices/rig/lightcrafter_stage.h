@@ -1,0 +1,112 @@
+// The stage made of a LightCrafter, the display it hangs on and the lenses: who is told what, in which order.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "devices/clock.h"
+#include "devices/rig/stage_lens.h"
+#include "devices/rig/stage_projector.h"
+#include "devices/rig/video_output.h"
+#include "devices/simulated/lens_model.h"
+#include "devices/stage.h"
+
+namespace ilf::devices {
+
+/// A program as the LightCrafter takes it.
+struct PatternFrame {
+    VideoFrame picture;
+    dlpc350::PatternSequence sequence;
+};
+
+/// What a stage is made of. Devices are opened when they are first needed and again after they were lost.
+struct LightCrafterRig {
+    std::function<Result<std::unique_ptr<StageProjector>>()> openProjector;
+    /// Opens the lenses at rest at this power; refuses where no calibration says what current gives it.
+    std::function<Result<std::unique_ptr<StageLens>>(Dioptre rest)> openLens;
+    std::shared_ptr<VideoOutput> video;
+    std::function<Result<PatternFrame>(const Program&)> packed;
+    Clock clock = Clock::steady();
+    std::string name = "LightCrafter 4500 and lenses";  ///< "emulated ..." where that is so
+};
+
+/// The order of a start: white video; lenses to their sweep, until they are predicted to be settled; the board's
+/// patterns, still showing white in every slot, so that its triggers can be heard; the sweep locked to them; the
+/// program's frame. A program with the same wave, rate and delay is one frame of video. Another wave goes through the
+/// white frame, and another pattern table through a fresh start of the patterns. The board is dark while it arranges
+/// its patterns (about half a second, its documents say no more); that cannot be helped over USB.
+///
+/// Any error of a device ends in safe light before it is returned, and only a new `load` and `swap` lights slots
+/// again. A device whose safe state could not be told is let go and opened again, at most once a second, by
+/// `heartbeat` and `safeLight`, which then tell it.
+class LightCrafterStage : public Stage {
+public:
+    explicit LightCrafterStage(LightCrafterRig rig) : rig_(std::move(rig)) {}
+    ~LightCrafterStage() override;
+
+    Result<void> load(const Program& program) override;
+    Result<void> swap() override;
+    Result<void> heartbeat() override;
+    void safeLight() noexcept override;
+    StageReport report() const override;
+    std::string name() const override {
+        return rig_.name + ", through USB; tested against emulators, never on hardware";
+    }
+
+    /// When the first light of the program swapped in last began, in the rig's clock: a frame is shown as patterns one
+    /// frame after it was sent.
+    std::chrono::nanoseconds lightBegan() const { return lightBegan_; }
+
+private:
+    enum class Light { unknown, white, slotted };
+    struct Loaded {
+        Program program;
+        PatternFrame frame;
+    };
+
+    Result<void> began();
+    Result<void> published(const VideoFrame& frame);
+    Result<void> lensSettled(const Waveform& wave, Second triggerAhead);
+    Result<void> patternsRun(const dlpc350::PatternSequence& sequence);
+    Result<void> inStep();
+    Result<void> confirmed();
+    Result<void> videoWell();
+    Result<void> projectorWell();
+    Result<void> lensWell();
+    Result<void> phaseWell();
+    bool playsLikeLoaded() const;
+    Result<void> reached(Dioptre rest);
+    Result<void> reachedAgain();
+    void makeSafe();
+    tl::unexpected<Error> lensFailed(const Error& error);
+    tl::unexpected<Error> faulted(Error error);
+    void wait(Second time);
+    void waitUntil(std::chrono::nanoseconds time);
+
+    LightCrafterRig rig_;
+    std::unique_ptr<StageProjector> projector_;  ///< none: not opened, or lost
+    std::unique_ptr<StageLens> lens_;
+    bool videoThere_ = false;  ///< took the last frame
+    std::optional<std::chrono::nanoseconds> triedAt_;
+
+    Light light_ = Light::unknown;
+    bool safeTold_ = false;    ///< to all that can be reached, and nothing else since
+    bool lensFailed_ = false;  ///< it must be opened anew once it rests
+    bool resting_ = false;     ///< the lens was told so and did not object
+    VideoFrame white_;
+    VideoMode mode_;
+    std::optional<dlpc350::PatternSequence> running_;  ///< the board's patterns; none: plain video
+    std::optional<Waveform> told_;                     ///< none: the lenses rest
+    Second ahead_;
+    Dioptre rest_;
+    LensModel predicted_;
+    Second settling_;
+    std::optional<Loaded> loaded_;
+    std::optional<PhaseState> phase_;
+    std::optional<double> temperature_C_;
+    std::chrono::nanoseconds lockedSince_{0}, lightBegan_{0};
+};
+
+}  // namespace ilf::devices

@@ -1,0 +1,39 @@
+// What a stage asks of the projector's board: patterns, plain video, and how it is.
+#pragma once
+
+#include <string>
+
+#include "devices/dlpc350/lightcrafter.h"
+
+namespace ilf::devices {
+
+/// Calls come from one thread. An error of `start` may leave the board dark, with its patterns stopped: `showVideo`
+/// must follow.
+class StageProjector {
+public:
+    virtual ~StageProjector() = default;
+
+    /// Shows the bit planes of video as patterns, from then on at every frame.
+    virtual Result<void> start(const dlpc350::PatternSequence& sequence) = 0;
+    /// Plain video, every pixel all the time.
+    virtual Result<void> showVideo() = 0;
+    /// How it is; may be up to a second old.
+    virtual Result<dlpc350::Watched> watch() = 0;
+    virtual std::string name() const = 0;
+};
+
+/// The real one.
+class LightCrafterProjector : public StageProjector {
+public:
+    explicit LightCrafterProjector(std::unique_ptr<dlpc350::LightCrafter> board) : board_(std::move(board)) {}
+
+    Result<void> start(const dlpc350::PatternSequence& sequence) override;
+    Result<void> showVideo() override;
+    Result<dlpc350::Watched> watch() override { return board_->watch(); }
+    std::string name() const override { return board_->name(); }
+
+private:
+    std::unique_ptr<dlpc350::LightCrafter> board_;
+};
+
+}  // namespace ilf::devices
