@@ -31,11 +31,11 @@ int padded(int numbers) { return (numbers + 15) / 16 * 16 + kOverrun; }
 RungRules rulesOf(Rung rung) {
     switch (rung) {
     case Rung::dragging:
-        return {0.3, 3.0, 12.0, 1, 1, 0.0, 0.7, 1.5};
+        return {0.3, 5.0, 16.0, 1, 1, 0.0, 0.7, 1.5};
     case Rung::rest:
-        return {0.12, 5.0, 20.0, 2, 3, 8.0, 0.5, 3.0};
+        return {0.12, 6.0, 24.0, 2, 4, 6.5, 0.5};
     case Rung::idle:
-        return {0.05, 9.0, 30.0, 4, 6, 4.0, 0.2, 4.0};
+        return {0.05, 14.0, 36.0, 4, 6, 4.0, 0.2};
     }
     return {};
 }
