@@ -2,8 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <iostream>
 
 #include "app/exit_code.h"
@@ -33,11 +31,7 @@ int installRulesCommand(const devices::SystemPlaces& places) {
         return kDone;
     }
     if (!mayWrite) {
-        std::error_code none;
-        std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
-        if (none) program = "illuminatedfocus";
-        std::cout << "Only root may install the USB rules; nothing was changed. As root:\n\n"
-                  << devices::rulesByHand(program);
+        std::cout << "Only root may install the USB rules; nothing was changed. As root:\n\n" << devices::rulesByHand();
         return kFailed;
     }
     const auto done = devices::installRules(places);

@@ -117,8 +117,8 @@ void printNothingAttached(std::ostream& out) {
             "port, then run doctor again. \"lsusb\" must list its number.");
     out << '\n';
     wrapped(out, "",
-            "Meanwhile everything works with simulated devices: \"illuminatedfocus\" opens the window, "
-            "\"illuminatedfocus run FILE\" plays a project without one.");
+            "Meanwhile everything works with simulated devices: \"./run.sh\" opens the window, "
+            "\"./run.sh run FILE\" plays a project without one.");
     out << '\n';
 }
 

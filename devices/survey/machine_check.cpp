@@ -56,7 +56,7 @@ MachineCheck rules(const InstalledRules& installed, bool udev) {
                          ? "USB rules are not installed, so only root may open projector and converter."
                          : "USB rules in " + installed.file.string() + " are those of another version.";
         check.help = "Install them:";
-        check.commands = {"sudo illuminatedfocus doctor --install-rules"};
+        check.commands = {installCommand()};
     }
     if (!udev) check.what += " udev does not run here (a container?): permissions are set outside of it.";
     return check;

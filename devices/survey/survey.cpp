@@ -8,14 +8,13 @@
 #include "devices/serial/serial_port.h"
 #include "devices/survey/ask_device.h"
 #include "devices/survey/known_devices.h"
+#include "devices/survey/udev_rules.h"
 #include "devices/usb/usb_words.h"
 
 namespace ilf::devices {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kInstallRules = "Run: sudo illuminatedfocus doctor --install-rules";
 
 std::string numbersOf(const UsbIdentity& device) {
     char numbers[16];
@@ -84,41 +83,54 @@ bool judgedFromOutside(Attached& device, const SurveyOptions& options, const std
     return false;
 }
 
-/// Asking failed. What is no longer listed has been unplugged, whatever the failed call said.
-void failed(Attached& device, DeviceState state, const Error& error, const UsbBus& bus, const UsbIdentity& identity) {
+/// The system takes a moment to forget a device, and a bus that is open does not see it go by itself.
+bool goneNow(const UsbIdentity& identity, const Clock& clock) {
+    constexpr int kLooks = 5;
+    constexpr std::chrono::milliseconds kPause{50};
     const std::vector<UsbModel> models = {{identity.vendor, identity.product}};
-    const auto still = bus.devices(models);
-    if (still && std::none_of(still->begin(), still->end(),
-                              [&](const UsbIdentity& other) { return other.path == identity.path; }))
+    for (int looks = 0; looks < kLooks; ++looks) {
+        if (looks > 0) clock.wait(kPause);
+        const auto bus = UsbBus::open();
+        const auto now = bus ? (*bus)->devices(models) : tl::unexpected(bus.error());
+        if (now && std::none_of(now->begin(), now->end(),
+                                [&](const UsbIdentity& other) { return other.path == identity.path; }))
+            return true;
+    }
+    return false;
+}
+
+/// Asking failed. What is no longer listed has been unplugged, whatever the failed call said.
+void failed(Attached& device, DeviceState state, const Error& error, const UsbIdentity& identity, const Clock& clock) {
+    if (goneNow(identity, clock))
         troubled(device, DeviceState::gone, "It was unplugged while it was looked at.");
     else
         troubled(device, state, error.what);
 }
 
 void lookAtUsb(Attached& device, const UsbIdentity& identity, UsbBus& bus, const SurveyOptions& options) {
-    if (!judgedFromOutside(device, options, std::string(kInstallRules) + ", then unplug it and plug it in again."))
+    if (!judgedFromOutside(device, options, "Run: " + installCommand() + ", then unplug it and plug it in again."))
         return;
     auto link = bus.link(identity.path, dlpc350::LightCrafter::kInterface);
-    if (!link) return failed(device, DeviceState::busy, link.error(), bus, identity);
+    if (!link) return failed(device, DeviceState::busy, link.error(), identity, options.clock);
     const auto told = device.kind == DeviceKind::projector ? askLightCrafter(device, *std::move(link), options.clock)
                                                            : askConverter(device, **link);
-    if (!told) failed(device, DeviceState::silent, told.error(), bus, identity);
+    if (!told) failed(device, DeviceState::silent, told.error(), identity, options.clock);
 }
 
-void lookAtSerial(Attached& device, const UsbIdentity& identity, const UsbBus& bus, const SurveyOptions& options) {
+void lookAtSerial(Attached& device, const UsbIdentity& identity, const SurveyOptions& options) {
     if (device.node.empty())
         return troubled(device, DeviceState::silent,
                         "It has no serial port yet. Wait a second and run doctor again; if it stays so, the kernel's "
                         "driver is missing: sudo modprobe cdc_acm");
     if (!judgedFromOutside(device, options,
-                           std::string(kInstallRules) +
+                           "Run: " + installCommand() +
                                ", then unplug it and plug it in again; or join the group dialout (sudo usermod -aG "
                                "dialout $USER) and log in again."))
         return;
     const auto port = openSerialPort(device.node);
-    if (!port) return failed(device, DeviceState::busy, port.error(), bus, identity);
+    if (!port) return failed(device, DeviceState::busy, port.error(), identity, options.clock);
     const auto told = askLensDriver(device, **port, options.clock);
-    if (!told) failed(device, DeviceState::silent, told.error(), bus, identity);
+    if (!told) failed(device, DeviceState::silent, told.error(), identity, options.clock);
 }
 
 Attached lookedAt(const UsbIdentity& identity, UsbBus& bus, const SurveyOptions& options) {
@@ -137,7 +149,7 @@ Attached lookedAt(const UsbIdentity& identity, UsbBus& bus, const SurveyOptions&
         device.state = DeviceState::unsupported;
         device.remarks.emplace_back("This version has no driver for it, and leaves it alone.");
     } else if (known.serial) {
-        lookAtSerial(device, identity, bus, options);
+        lookAtSerial(device, identity, options);
     } else {
         lookAtUsb(device, identity, bus, options);
     }

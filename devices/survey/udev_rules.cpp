@@ -67,12 +67,15 @@ InstalledRules installedRules(const SystemPlaces& places) {
     return {};
 }
 
-std::string rulesByHand(const fs::path& program) {
-    return "  sudo '" + program.string() +
-           "' doctor --install-rules\n\n"
-           "or, by hand:\n\n"
-           "sudo tee " +
-           kFile + " >/dev/null <<'END'\n" + udevRules() + "END\nsudo " + kReload + "\nsudo " + kTrigger + "\n";
+std::string installCommand() {
+    std::error_code none;
+    const fs::path program = fs::read_symlink("/proc/self/exe", none);
+    return "sudo '" + (none ? std::string("illuminatedfocus") : program.string()) + "' doctor --install-rules";
+}
+
+std::string rulesByHand() {
+    return "  " + installCommand() + "\n\nor, by hand:\n\nsudo tee " + kFile + " >/dev/null <<'END'\n" + udevRules() +
+           "END\nsudo " + kReload + "\nsudo " + kTrigger + "\n";
 }
 
 Result<std::vector<std::string>> installRules(const SystemPlaces& places) {

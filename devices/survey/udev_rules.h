@@ -20,8 +20,10 @@ struct InstalledRules {
 /// Looks where udev does; a file in /etc hides one of the same name in /usr/lib.
 InstalledRules installedRules(const SystemPlaces& places);
 
-/// What somebody who may become root types, line by line. `program` is the one that runs now.
-std::string rulesByHand(const std::filesystem::path& program);
+/// What to type so that this program installs them: "sudo '/usr/bin/illuminatedfocus' doctor --install-rules".
+std::string installCommand();
+/// That, and what does the same without this program, line by line.
+std::string rulesByHand();
 
 /// Writes the rules whole or not at all, then lets udev read them and look at what is plugged in, where udevadm is
 /// there. Gives sentences of what was done. Errors: `cannotWrite`.
