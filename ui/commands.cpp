@@ -117,6 +117,7 @@ constexpr auto table = std::to_array<CommandInfo>({
      "Hide everything but the picture, or bring it back."},
     {C::fullScreen, "view.fullScreen", "Full screen", "View", plain(f(11)), none, "The window over the whole screen."},
 
+    {C::seamMarks, "view.seamMarks", "Seam marks", "View", plain('M'), none, "Dots where a seam will show, or none."},
     {C::debugPanel, "view.debug", "Counters", "View", plain(f(3)), none,
      "What the last view, compile and frame took, and what they could leave out."},
     {C::gazeHere, "view.gazeHere", "Look here", "View", plain('G'), none,

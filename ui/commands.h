@@ -65,6 +65,7 @@ enum class Command {
     zoomOut,
     hidePanels,
     fullScreen,
+    seamMarks,
     debugPanel,
     gazeHere,
     resetLayout,

@@ -20,8 +20,8 @@ void drawBorderSeams(Panel& p, const Viewport& viewport, ImDrawList& draw) {
     const State& state = p.state;
     const auto& seams = p.view.computed.seams;
     const bool asSeen = state.mode == ViewMode::perceived;
-    if (!seams || !(asSeen || state.mode == ViewMode::scene) || state.overlayHidden || state.plainHeld ||
-        p.view.previewing || !p.view.computed.forCurrent) {
+    if (!seams || !state.seamMarks || !(asSeen || state.mode == ViewMode::scene) || state.overlayHidden ||
+        state.plainHeld || p.view.previewing || !p.view.computed.forCurrent) {
         return;
     }
     const std::size_t eye = state.eye == Eye::left ? 0 : 1;

@@ -354,6 +354,9 @@ void run(Command command, const View& view, State& state, Requests& requests) {
     case Command::hidePanels:
         state.panels.hidden = !state.panels.hidden;
         return;
+    case Command::seamMarks:
+        state.seamMarks = !state.seamMarks;
+        return;
     case Command::debugPanel:
         state.debugOpen = !state.debugOpen;
         return;

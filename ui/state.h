@@ -105,6 +105,7 @@ struct State {
     ViewRequest seeing;    ///< how perceived views are looked at: gaze, attention, colour, rim; the app sets the rest
     bool placingGaze = false;  ///< the next click on the picture is where the eye is turned
     bool debugOpen = false;
+    bool seamMarks = true;
     bool fitted = true;
     double zoom = 1.0;          ///< window pixels per picture pixel; follows the window while `fitted`
     Point<CameraFrame> centre;  ///< shown in the middle of the canvas

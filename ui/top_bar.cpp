@@ -41,6 +41,8 @@ bool checked(Command command, const Panel& p) {
         return p.state.overlayHidden;
     case Command::hidePanels:
         return p.state.panels.hidden;
+    case Command::seamMarks:
+        return p.state.seamMarks;
     case Command::debugPanel:
         return p.state.debugOpen;
     default:

@@ -57,3 +57,19 @@ TEST_CASE("seam marks: hidden, faint and visible seams have colours of their own
     CHECK(sight(kFaintSeam) == SeamSight::faint);
     CHECK(sight(kVisibleSeam) == SeamSight::visible);
 }
+
+TEST_CASE("seam marks: M hides them and brings them back") {
+    Desk desk(twoRegions(), {1280, 1400});
+    desk.dress = [](View& view) { view.computed.seams = oneBorder(false); };
+    const auto drawn = [&] {
+        desk.settle();
+        return ImGui::GetDrawData()->TotalVtxCount;
+    };
+    const int shown = drawn();
+    desk.key('M');
+    CHECK_FALSE(desk.state.seamMarks);
+    const int hidden = drawn();
+    CHECK(hidden < shown);
+    desk.key('M');
+    CHECK(drawn() == shown);
+}
