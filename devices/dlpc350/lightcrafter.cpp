@@ -124,6 +124,7 @@ Result<void> LightCrafter::setDisplay(Display display) {
 
 Result<void> LightCrafter::showVideo() {
     if (const auto ok = stop(); !ok) return ok;
+    wait(twoFrames());  // it says "stopped" before its last frame ends, and takes no change until then
     return setDisplay(Display::video);
 }
 

@@ -297,6 +297,15 @@ std::optional<Bytes> EmulatedLightCrafter::read(unsigned command, std::int64_t n
     case 0x1A1A:
         if (validateBy_ns_ && now_ns < *validateBy_ns_) return Bytes{0x80};
         return Bytes{validation_};
+    case 0x1A34: {
+        // Not in devices.md; TI's own program reads the pattern LUT back through the open mailbox. Taken here: all of
+        // it, from the mailbox's entry on.
+        if (byteOf(0x1A33) != 2) return std::nullopt;
+        Bytes entries;
+        for (std::size_t i = byteOf(0x1A32); i < patternLut_.size(); ++i)
+            entries.insert(entries.end(), patternLut_[i].begin(), patternLut_[i].end());
+        return entries;
+    }
     case 0x1A3A:
     case 0x1A42:
         return Bytes(std::size_t(commands().at(command).readBack));

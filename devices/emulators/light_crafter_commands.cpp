@@ -36,7 +36,7 @@ const std::map<unsigned, Command>& commands() {
         {0x1A31, {4, 4, true}},
         {0x1A33, {1, 1, true}},
         {0x1A32, {1, 1, true}},
-        {0x1A34, {kAny, kNo, true}},
+        {0x1A34, {kAny, kAny, true}},
         {0x1A3E, {12, kNo, true}},
         {0x1A3F, {2, 2, true}},
         {0x1A40, {6, 6, true}},

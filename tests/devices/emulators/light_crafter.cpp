@@ -167,7 +167,7 @@ TEST_CASE("light crafter: what is unknown, of the wrong length or out of range i
         return reply && ((*reply)[0] & 0x20) != 0 && (*reply)[1] == message[1];
     };
     CHECK(refused({0x40, 1, 3, 0, 0x77, 0x1A, 0}));         // no such command
-    CHECK(refused({0xC0, 2, 2, 0, 0x34, 0x1A}));            // cannot be read
+    CHECK(refused({0xC0, 2, 2, 0, 0x34, 0x1A}));            // not while the mailbox is closed
     CHECK(refused({0x40, 3, 3, 0, 0x0C, 0x1A, 0}));         // cannot be written
     CHECK(refused({0x40, 4, 4, 0, 0x1B, 0x1A, 1, 0}));      // a byte too many
     CHECK(refused({0x40, 5, 2, 0, 0x1B, 0x1A}));            // a byte too few
