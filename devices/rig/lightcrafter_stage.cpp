@@ -50,12 +50,13 @@ Result<void> LightCrafterStage::swap() {
 
 Result<void> LightCrafterStage::began() {
     const auto& [program, frame] = *loaded_;
-    safeTold_ = false;
     if (light_ == Light::slotted) {
+        safeTold_ = false;
         if (auto white = published(white_); !white) return white;
         light_ = Light::white;
     }
     if (auto there = reached(program.waveform.rest); !there) return there;
+    safeTold_ = false;
     if (auto well = videoWell(); !well) return well;
     const double off = mode_.refresh / program.waveform.rate - 1.0;
     if (mode_.refresh > 0.0_Hz && std::abs(off) > kMostOff)

@@ -92,9 +92,10 @@ private:
     std::optional<std::chrono::nanoseconds> triedAt_;
 
     Light light_ = Light::unknown;
-    bool safeTold_ = false;    ///< to all that can be reached, and nothing else since
-    bool lensFailed_ = false;  ///< it must be opened anew once it rests
-    bool resting_ = false;     ///< the lens was told so and did not object
+    bool safeTold_ = false;             ///< to all that can be reached, and nothing else since
+    std::optional<Error> safeTrouble_;  ///< what first did not listen then
+    bool lensFailed_ = false;           ///< it must be opened anew once it rests
+    bool resting_ = false;              ///< the lens was told so and did not object
     VideoFrame white_;
     VideoMode mode_;
     std::optional<dlpc350::PatternSequence> running_;  ///< the board's patterns; none: plain video

@@ -28,10 +28,7 @@ std::string number(const char* format, double value) {
 
 Result<void> LightCrafterStage::videoWell() {
     const auto mode = rig_.video->mode();
-    if (!mode) {
-        videoThere_ = false;
-        return tl::unexpected(mode.error());
-    }
+    if (!mode) return tl::unexpected(mode.error());
     if (!white_.empty() && mode->size != white_.size())
         return fail(Fault::device, "The projector's display was switched to another mode; set 912x1140, then TAKE.");
     mode_ = *mode;
@@ -125,9 +122,8 @@ Result<void> LightCrafterStage::reachedAgain() {
         note(mode.error());
     }
     makeSafe();
+    if (!first) first = safeTrouble_;
     if (first) return tl::unexpected(*first);
-    if (light_ != Light::white) return fail(Fault::device, "The projector cannot be told to show steady white.");
-    if (!resting_) return fail(Fault::device, "The lenses cannot be told to rest.");
     return {};
 }
 
@@ -158,16 +154,22 @@ void LightCrafterStage::safeLight() noexcept {
 /// Light comes before the lens, since slots seen through a lens at rest are not what anybody planned; each is told even
 /// if the one before could not be, and once: what does not listen is let go.
 void LightCrafterStage::makeSafe() {
+    safeTrouble_.reset();
+    const auto listened = [&](const auto& told) {
+        if (!told && !safeTrouble_) safeTrouble_ = told.error();
+        return told.has_value();
+    };
     // White video is uniform light in patterns too, so that it holds even if the board does not listen.
-    const bool white = videoThere_ && !white_.empty() && rig_.video->show(white_).has_value();
+    const bool white = videoThere_ && !white_.empty() && listened(rig_.video->show(white_));
     videoThere_ = white;
-    if (projector_ && !projector_->showVideo()) projector_.reset();
+    if (projector_ && !listened(projector_->showVideo())) projector_.reset();
     const bool slotsMayBeOn = light_ == Light::slotted && !white && !projector_;
     light_ = white && projector_ ? Light::white : slotsMayBeOn ? Light::slotted : Light::unknown;
     running_.reset();
 
-    if (lens_ && !lens_->safe()) lens_.reset();
-    resting_ = lens_ != nullptr;
+    // Lenses that were let go at rest stay there.
+    if (lens_) resting_ = listened(lens_->safe());
+    if (!resting_) lens_.reset();
     if (std::exchange(lensFailed_, false)) lens_.reset();
     if (resting_) predicted_ = predicted_.told(stillWave(rest_, rest_, 60.0_Hz), rig_.clock.now().count());
     told_.reset();

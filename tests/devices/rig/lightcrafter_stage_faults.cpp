@@ -1,0 +1,172 @@
+#include <doctest/doctest.h>
+
+#include "tests/devices/rig/scripted_rig.h"
+#include "tests/support/law.h"
+
+namespace ilf::devices {
+namespace {
+
+using namespace std::chrono_literals;
+using test::ScriptedRig;
+using Calls = std::vector<std::string>;
+
+Program slower(std::uint32_t seed) {
+    auto program = test::program(seed);
+    program.slotRate = 480.0_Hz;
+    program.imageOfSlot.resize(8);
+    return program;
+}
+
+/// A show from its start to its end; stops at the first failure, as a player does.
+Result<void> evening(ScriptedRig& rig) {
+    for (const auto& program :
+         {test::program(1), test::dabbed(test::program(1), 9), test::program(2, 4.27_D), slower(3)}) {
+        if (const auto shown = rig.played(program); !shown) return shown;
+        rig.room.now += 3s;
+        if (const auto well = rig.stage.heartbeat(); !well) return well;
+    }
+    rig.stage.safeLight();
+    return rig.stage.heartbeat();
+}
+
+}  // namespace
+
+TEST_CASE("lightcrafter stage: whichever call fails, at whichever time, the scene is lit and the lens rests") {
+    for (const bool afterEffect : {false, true}) {
+        bool untouched = false;
+        for (int failing = 1; !untouched; ++failing) {
+            REQUIRE(failing < 300);
+            CAPTURE(failing);
+            CAPTURE(afterEffect);
+            ScriptedRig rig;
+            rig.room.failsAfterEffect = afterEffect;
+            int calls = 0;
+            std::string failed;
+            rig.room.failsAt = [&](const std::string& call) {
+                if (++calls != failing) return false;
+                failed = call;
+                return true;
+            };
+            const auto done = evening(rig);
+            untouched = calls < failing;
+            if (untouched) {
+                CHECK(done);
+                break;
+            }
+            CAPTURE(failed);
+            if (!done) CHECK(done.error().what.find("It failed (" + failed + ").") == 0);
+            // Whatever was lost while it was made safe is told again within seconds, and nothing starts slots.
+            for (int beat = 0; beat < 30; ++beat) {
+                rig.room.now += 100ms;
+                if (!rig.stage.heartbeat()) rig.stage.safeLight();
+                if (!done) CHECK_FALSE(rig.room.slotted());
+            }
+            CHECK(rig.room.whiteShown);
+            CHECK_FALSE(rig.room.slotted());
+            CHECK_FALSE(rig.room.wave);
+            CHECK(rig.stage.report().well);
+            CHECK(rig.room.violations == Calls{});
+            CHECK(rig.played(test::program(5)));
+            CHECK(rig.room.slotted());
+        }
+    }
+}
+
+TEST_CASE("lightcrafter stage: what fails for good from any call on is left, and all others are made safe") {
+    for (const std::string gone : {"video", "board", "lens"}) {
+        bool untouched = false;
+        for (int failing = 1; !untouched; ++failing) {
+            REQUIRE(failing < 300);
+            CAPTURE(gone);
+            CAPTURE(failing);
+            ScriptedRig rig;
+            int calls = 0;
+            bool failed = false;
+            rig.room.failsAt = [&](const std::string& call) {
+                if (!call.starts_with(gone) || ++calls < failing) return false;
+                failed = true;
+                rig.room.boardGone = gone == "board";
+                rig.room.lensGone = gone == "lens";
+                if (gone == "video") rig.video->lose();
+                return true;
+            };
+            const auto done = evening(rig);
+            untouched = !failed;
+            if (untouched) break;
+            rig.stage.safeLight();
+            for (int beat = 0; beat < 30; ++beat) {
+                rig.room.now += 100ms;
+                CHECK_FALSE(rig.stage.heartbeat());
+                rig.stage.safeLight();
+            }
+            CHECK_FALSE(rig.room.slotted());
+            if (gone != "video") CHECK(rig.room.whiteShown);
+            if (gone != "board") CHECK_FALSE(rig.room.patterns);
+            if (gone != "lens") CHECK_FALSE(rig.room.wave);
+            CHECK_FALSE(rig.stage.report().well);
+            CHECK(rig.room.violations == Calls{});
+        }
+    }
+}
+
+TEST_CASE("lightcrafter stage: when neither display nor board listen, the lens is still told, and it is said") {
+    ScriptedRig rig;
+    REQUIRE(rig.played(test::program(1)));
+    rig.video->lose();
+    rig.room.boardGone = true;
+    const auto beat = rig.stage.heartbeat();
+    REQUIRE_FALSE(beat);
+    CHECK(beat.error().what.find("The projector's light is not known.") != std::string::npos);
+    CHECK_FALSE(rig.room.wave);
+    CHECK(rig.stage.report().projectorLine == "LightCrafter 4500: no answer; its light is not known");
+    CHECK_FALSE(rig.stage.report().well);
+}
+
+TEST_CASE(
+    "lightcrafter stage: whatever is asked and whatever fails, slots never meet a resting lens or a rate's change") {
+    law("light and lens", [] {
+        ScriptedRig rig;
+        const auto failRate = *rc::gen::element(0, 5, 20);
+        rig.room.failsAfterEffect = *rc::gen::arbitrary<bool>();
+        const auto chances = *rc::gen::container<std::vector<int>>(64, rc::gen::inRange(0, 100));
+        std::size_t asked = 0;
+        rig.room.failsAt = [&](const std::string&) { return chances[asked++ % chances.size()] < failRate; };
+        const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 12));
+        bool faulted = false;
+        for (const int step : steps) {
+            switch (step) {
+            case 0:
+            case 1:
+            case 2:
+            case 3: {
+                const auto program = step < 2   ? test::program(static_cast<std::uint32_t>(step) + 1)
+                                     : step < 3 ? test::program(2, 4.0_D)
+                                                : slower(3);
+                faulted = !rig.played(program);
+                break;
+            }
+            case 4:
+                rig.stage.safeLight();
+                faulted = true;  // as a fault: slots need a new swap
+                break;
+            case 5:
+                rig.room.boardGone = !rig.room.boardGone;
+                break;
+            case 6:
+                rig.room.phaseError = rig.room.phaseError > 0.0_s ? 0.0_s : 300.0_us;
+                break;
+            default:
+                rig.room.now += std::chrono::milliseconds(step * 300);
+                if (!rig.stage.heartbeat()) {
+                    rig.stage.safeLight();
+                    faulted = true;
+                }
+            }
+            RC_ASSERT(rig.room.violations.empty());
+            const bool reachable = !rig.room.whiteFailed || !rig.room.showVideoFailed;
+            RC_ASSERT(!faulted || !rig.room.slotted() || !reachable);
+        }
+    });
+}
+
+}  // namespace ilf::devices
