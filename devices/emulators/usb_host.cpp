@@ -321,6 +321,9 @@ Result<void> UsbHost::plug(const std::string& path, EmulatedUsbDevice& device) {
 
 void UsbHost::unplug(const std::string& path) {
     const std::scoped_lock bedLock(impl_->bedCalls);
+    // What has left by itself is let go of now: its device may be gone once this returns.
+    for (UsbPort* left : impl_->goneAndNotPulled())
+        impl_->pull(*left);
     UsbPort* port = nullptr;
     {
         const std::scoped_lock lock(impl_->devices);
