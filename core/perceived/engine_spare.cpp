@@ -8,12 +8,12 @@ namespace ilf::view {
 
 struct SpareTiles::Store {
     std::mutex mutex;
-    std::vector<std::unique_ptr<ViewTile>> tiles;
+    std::vector<std::unique_ptr<SpareTile>> tiles;
 };
 
 SpareTiles::SpareTiles() : store_(std::make_shared<Store>()) {}
 
-std::unique_ptr<ViewTile> SpareTiles::take() {
+std::unique_ptr<SpareTile> SpareTiles::take() {
     {
         const std::scoped_lock lock(store_->mutex);
         if (!store_->tiles.empty()) {
@@ -22,12 +22,13 @@ std::unique_ptr<ViewTile> SpareTiles::take() {
             return tile;
         }
     }
-    return std::make_unique<ViewTile>();
+    return std::make_unique<SpareTile>();
 }
 
-Box<ViewTile> SpareTiles::boxed(std::unique_ptr<ViewTile> tile) {
+Box<ViewTile> SpareTiles::boxed(std::unique_ptr<SpareTile> tile) {
     return Box<ViewTile>(std::shared_ptr<const ViewTile>(tile.release(), [store = store_](const ViewTile* gone) {
-        std::unique_ptr<ViewTile> back(const_cast<ViewTile*>(gone));  // made as one that may change
+        // Made above as one that may change.
+        std::unique_ptr<SpareTile> back(static_cast<SpareTile*>(const_cast<ViewTile*>(gone)));
         const std::scoped_lock lock(store->mutex);
         store->tiles.push_back(std::move(back));
     }));

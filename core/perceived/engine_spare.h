@@ -3,17 +3,21 @@
 
 #include <memory>
 
+#include "core/perceived/engine_floats.h"
 #include "core/perceived/view_engine.h"
 
 namespace ilf::view {
+
+/// Begins on a line of the cache.
+struct alignas(AlignedFloats::kAlignment) SpareTile : ViewTile {};
 
 class SpareTiles {
 public:
     SpareTiles();
     /// A tile with whatever it held last.
-    std::unique_ptr<ViewTile> take();
+    std::unique_ptr<SpareTile> take();
     /// Comes back here when the last view with it is gone, from any thread; also after this is gone.
-    Box<ViewTile> boxed(std::unique_ptr<ViewTile> tile);
+    Box<ViewTile> boxed(std::unique_ptr<SpareTile> tile);
 
 private:
     struct Store;

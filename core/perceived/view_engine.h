@@ -15,7 +15,7 @@ namespace ilf {
 
 /// A tile of a view: three planes (red, green, blue) of linear radiance, each row by row. Tiles at the right and lower
 /// edge reach beyond the picture and are 0 there.
-struct alignas(64) ViewTile {
+struct ViewTile {
     static constexpr int kWidth = 64, kHeight = 32;
     std::array<float, 3 * kWidth * kHeight> v{};
     bool operator==(const ViewTile&) const = default;
