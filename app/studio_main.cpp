@@ -21,8 +21,9 @@ namespace {
 
 using namespace ilf::app;
 
-constexpr const char* kFooter = "Exit codes: 0 done, 1 failed, 2 usage, 3 device, 4 unsafe plan.\n"
-                                "All output is simulated: no lens or projector driver is part of this version.";
+constexpr const char* kFooter =
+    "Exit codes: 0 done, 1 failed, 2 usage, 3 device, 4 unsafe plan.\n"
+    "All output is simulated: this version's output core opens no driver of a lens or projector (see doctor).";
 
 const std::vector<std::string> kSimulatedLenses{"slow", "datasheet", "lively", "clean", "dirty", "ideal"};
 
@@ -165,14 +166,18 @@ void addEvaluate(CLI::App& app, EvaluateCommandOptions& options) {
 }
 
 void addSeams(CLI::App& app, SeamsOptions& options) {
-    auto* seams = app.add_subcommand("seams", "How visible each border between sharp and blurred light is, for each eye");
+    auto* seams =
+        app.add_subcommand("seams", "How visible each border between sharp and blurred light is, for each eye");
     seams->add_option("FILE", options.file, "Project");
-    seams->add_option("--errors", options.errors, "pupil=1,registration=0.25,gaze=5,lens=2 (mm), nearer=5,farther=10 (%)")
+    seams
+        ->add_option("--errors", options.errors,
+                     "pupil=1,registration=0.25,gaze=5,lens=2 (mm), nearer=5,farther=10 (%)")
         ->delimiter(',');
     seams->add_option("--motion", options.motion_mm_s, "Speed of a moving region across the surface, mm/s")
         ->check(CLI::Range(0.1, 10000.0));
     seams->add_flag("--json", options.json, "As JSON");
-    seams->add_option("--experiment", options.experiment, "The paper's experiment on this folder's textures, without FILE");
+    seams->add_option("--experiment", options.experiment,
+                      "The paper's experiment on this folder's textures, without FILE");
     seams->add_option("-o,--out", options.out, "Folder for the experiment's pictures and seams.csv");
     addLensChoice(*seams, options.lens);
 }
