@@ -144,18 +144,14 @@ void product(float* out, int stride, ViewRect window, std::span<const TilePlane*
     }
     tiles.over(inside, [&](int tile) {
         const ViewRect rect = tiles.rect(tile), part = common(inside, rect);
-        std::array<const float*, 3> varying{};
-        std::size_t count = 0;
-        float uniform = 1.0F;
-        for (const TilePlane* plane : planes) {
-            if (plane->values(tile)) {
-                varying[count++] = plane->values(tile) + (part.y0 - rect.y0) * kTileW + (part.x0 - rect.x0);
-            } else {
-                uniform *= plane->uniform(tile);
-            }
+        std::array<Factor, 3> factors;
+        for (std::size_t i = 0; i < planes.size(); ++i) {
+            const float* values = planes[i]->values(tile);
+            factors[i] = {values ? values + (part.y0 - rect.y0) * kTileW + (part.x0 - rect.x0) : nullptr,
+                          planes[i]->uniform(tile)};
         }
         coverage(out + (part.y0 - window.y0) * stride + (part.x0 - window.x0), stride, part.width(), part.height(),
-                 uniform == 0.0F ? std::array<const float*, 3>{} : varying, uniform);
+                 factors);
     });
 }
 

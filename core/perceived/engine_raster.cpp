@@ -12,6 +12,7 @@ namespace {
 BetweenPixels between(double at, int length) {
     BetweenPixels b;
     b.inside = at >= 0.0 && at <= length;
+    if (!b.inside) return b;  // nor need it be a number
     const double u = std::clamp(at - 0.5, 0.0, length - 1.0);
     b.first = static_cast<int>(u);
     b.second = std::min(b.first + 1, length - 1);
@@ -71,13 +72,14 @@ void LightRaster::sample(float* out, ViewRect tile, const LightMap& map) const {
     const int width = std::min(kTileW, map.view.width - tile.x0), height = std::min(kTileH, map.view.height - tile.y0);
     if (width < kTileW || height < kTileH) std::fill_n(out, kTilePixels, 0.0F);
     const auto value = [&](const BetweenPixels& x, const BetweenPixels& y) {
+        if (!x.inside || !y.inside) return 0.0F;
         const std::uint8_t* top = values_.data() + static_cast<std::ptrdiff_t>(y.first) * width_;
         const std::uint8_t* bottom = values_.data() + static_cast<std::ptrdiff_t>(y.second) * width_;
         const float above =
             static_cast<float>(top[x.first]) * (1.0F - x.part) + static_cast<float>(top[x.second]) * x.part;
         const float below =
             static_cast<float>(bottom[x.first]) * (1.0F - x.part) + static_cast<float>(bottom[x.second]) * x.part;
-        return x.inside && y.inside ? (above * (1.0F - y.part) + below * y.part) * kUnit : 0.0F;
+        return (above * (1.0F - y.part) + below * y.part) * kUnit;
     };
     if (!map.upright) {
         for (int y = 0; y < height; ++y) {

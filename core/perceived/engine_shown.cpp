@@ -186,14 +186,15 @@ bool sumSource(Workspace& work, const Shown& shown, ViewRect part, const Source&
     const float* values = source.values ? source.values->at(readable.x0, readable.y0) : mask;
     const int valueStride = source.values ? source.values->stride() : covered.stride;
     if (!source.values) mask = nullptr;
+    const float even = source.values ? covered.even : 1.0F;
     float* sums = work.sums.data();
     if (readable != own) std::fill_n(sums, stride * (rows + 8), 0.0F);
     float* from = sums + (readable.y0 - own.y0) * stride + (readable.x0 - own.x0);
     if (shown.sharp) {  // no sums: the products themselves, row by row
-        products(from, stride, readable.width(), readable.height(), mask, covered.stride, values, valueStride);
+        products(from, stride, readable.width(), readable.height(), mask, covered.stride, even, values, valueStride);
         return true;
     }
-    prefixSums(from, stride, readable.width(), readable.height(), mask, covered.stride, values, valueStride);
+    prefixSums(from, stride, readable.width(), readable.height(), mask, covered.stride, even, values, valueStride);
     // Rows below what can be read repeat the last sums. (Rows that only fill up the last four are for nothing.)
     const int last = readable.y1 - own.y0;
     for (int y = last + 1; y <= rows; ++y)

@@ -102,7 +102,7 @@ void fetchAhead(const PaddedPlane& plane, ViewRect window);
 
 /// What is shown: a mask, numbers, or the product of both. One of them at least.
 struct Source {
-    Covered covered;  ///< no mask: 1, whatever `even` says
+    Covered covered;
     const PaddedPlane* values = nullptr;
 };
 /// work.sums: running sums of the source over `part` (of shown.samples) grown by the look's reach. False: nothing

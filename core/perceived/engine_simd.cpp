@@ -27,8 +27,9 @@ using Lanes = hn::CappedTag<float, 16>;
 /// As many columns of vectors side by side as there are: each sum waits for the one above it, not for its neighbours.
 template <std::size_t kVectors, bool kMasked>
 HWY_INLINE void prefixColumns(float* HWY_RESTRICT to, int stride, int rows, const float* HWY_RESTRICT mask,
-                              int maskStride, const float* HWY_RESTRICT from, int valueStride) {
+                              int maskStride, float even, const float* HWY_RESTRICT from, int valueStride) {
     const Floats d;
+    const auto everywhere = hn::Set(d, even);
     const std::size_t n = hn::Lanes(d);
     using V = decltype(hn::Zero(d));
     std::array<V, kVectors> sums;
@@ -40,7 +41,7 @@ HWY_INLINE void prefixColumns(float* HWY_RESTRICT to, int stride, int rows, cons
         to += stride;
         for (std::size_t v = 0; v < kVectors; ++v) {
             const auto value = hn::LoadU(d, from + v * n);
-            sums[v] = kMasked ? hn::MulAdd(hn::LoadU(d, mask + v * n), value, sums[v]) : hn::Add(sums[v], value);
+            sums[v] = hn::MulAdd(kMasked ? hn::LoadU(d, mask + v * n) : everywhere, value, sums[v]);
             hn::StoreU(sums[v], d, to + v * n);
         }
         from += valueStride;
@@ -50,14 +51,14 @@ HWY_INLINE void prefixColumns(float* HWY_RESTRICT to, int stride, int rows, cons
 
 template <bool kMasked>
 void prefixOf(float* HWY_RESTRICT sums, int stride, int width, int rows, const float* HWY_RESTRICT mask, int maskStride,
-              const float* HWY_RESTRICT values, int valueStride) {
+              float even, const float* HWY_RESTRICT values, int valueStride) {
     const Floats d;
     const int n = static_cast<int>(hn::Lanes(d));
     for (int x = 0; x < width;) {
         const int left = (width - x + n - 1) / n;
         const auto columns = [&](auto vectors) {
-            prefixColumns<vectors(), kMasked>(sums + x, stride, rows, kMasked ? mask + x : mask, maskStride, values + x,
-                                              valueStride);
+            prefixColumns<vectors(), kMasked>(sums + x, stride, rows, kMasked ? mask + x : mask, maskStride, even,
+                                              values + x, valueStride);
             x += static_cast<int>(vectors()) * n;
         };
         if (left == 5 || left > 7) {
@@ -75,24 +76,23 @@ void prefixOf(float* HWY_RESTRICT sums, int stride, int width, int rows, const f
 }
 
 void prefixSumsHere(float* HWY_RESTRICT sums, int stride, int width, int rows, const float* HWY_RESTRICT mask,
-                    int maskStride, const float* HWY_RESTRICT values, int valueStride) {
+                    int maskStride, float even, const float* HWY_RESTRICT values, int valueStride) {
     if (mask) {
-        prefixOf<true>(sums, stride, width, rows, mask, maskStride, values, valueStride);
+        prefixOf<true>(sums, stride, width, rows, mask, maskStride, even, values, valueStride);
     } else {
-        prefixOf<false>(sums, stride, width, rows, mask, maskStride, values, valueStride);
+        prefixOf<false>(sums, stride, width, rows, mask, maskStride, even, values, valueStride);
     }
 }
 
 void productsHere(float* HWY_RESTRICT out, int stride, int width, int rows, const float* HWY_RESTRICT mask,
-                  int maskStride, const float* HWY_RESTRICT values, int valueStride, float scale) {
+                  int maskStride, float even, const float* HWY_RESTRICT values, int valueStride) {
     const Lanes d;
     const int n = static_cast<int>(hn::Lanes(d));
-    const auto factor = hn::Set(d, scale);
+    const auto everywhere = hn::Set(d, even);
     for (int y = 0; y < rows; ++y) {
         for (int x = 0; x < width; x += n) {
-            auto value = hn::Mul(factor, hn::LoadU(d, values + y * valueStride + x));
-            if (mask) value = hn::Mul(value, hn::LoadU(d, mask + y * maskStride + x));
-            hn::StoreU(value, d, out + y * stride + x);
+            const auto covers = mask ? hn::LoadU(d, mask + y * maskStride + x) : everywhere;
+            hn::StoreU(hn::Mul(covers, hn::LoadU(d, values + y * valueStride + x)), d, out + y * stride + x);
         }
     }
 }
@@ -333,10 +333,10 @@ HWY_INLINE void averageDown(float* HWY_RESTRICT lines, int stride, const Row& ro
 }
 
 /// to = a line averaged to half its width: `count` numbers, rounded up to whole vectors.
-HWY_INLINE void averageAcross(float* HWY_RESTRICT to, const float* HWY_RESTRICT line, int count, float scale) {
+HWY_INLINE void averageAcross(float* HWY_RESTRICT to, const float* HWY_RESTRICT line, int count) {
     const Lanes d;
     const int n = static_cast<int>(hn::Lanes(d));
-    const auto outer = hn::Set(d, kOuterTap * scale), inner = hn::Set(d, kInnerTap * scale);
+    const auto outer = hn::Set(d, kOuterTap), inner = hn::Set(d, kInnerTap);
     for (int x = 0; x < count; x += n) {
         auto a = hn::Zero(d), b = a, c = a, e = a;
         hn::LoadInterleaved2(d, line + 2 * x, a, b);
@@ -346,8 +346,8 @@ HWY_INLINE void averageAcross(float* HWY_RESTRICT to, const float* HWY_RESTRICT 
 }
 
 template <int kCoarse>
-void averageBy(float* HWY_RESTRICT out, int outStride, const float* HWY_RESTRICT mask, int maskStride,
-               const float* HWY_RESTRICT values, int valueStride, float scale) {
+void averageBy(float* HWY_RESTRICT out, int outStride, const float* HWY_RESTRICT mask, int maskStride, float even,
+               const float* HWY_RESTRICT values, int valueStride) {
     const Lanes d;
     const int n = static_cast<int>(hn::Lanes(d));
     constexpr int kRead = kTileW + 16, kStride = kRead + 2 * kOverrun;
@@ -356,7 +356,8 @@ void averageBy(float* HWY_RESTRICT out, int outStride, const float* HWY_RESTRICT
         const auto maskAt = [&](int y) { return hn::LoadU(d, mask + y * maskStride + x); };
         const auto valueAt = [&](int y) { return hn::LoadU(d, values + y * valueStride + x); };
         if (!mask) {
-            averageDown<kCoarse>(lines.data() + x, kStride, valueAt);
+            const auto everywhere = hn::Set(d, even);
+            averageDown<kCoarse>(lines.data() + x, kStride, [&](int y) { return hn::Mul(everywhere, valueAt(y)); });
         } else if (!values) {
             averageDown<kCoarse>(lines.data() + x, kStride, maskAt);
         } else {
@@ -367,19 +368,19 @@ void averageBy(float* HWY_RESTRICT out, int outStride, const float* HWY_RESTRICT
         const float* HWY_RESTRICT line = lines.data() + y * kStride;
         float* HWY_RESTRICT to = out + y * outStride;
         if constexpr (kCoarse == 2) {
-            averageAcross(to, line, kTileW / 2, scale);
+            averageAcross(to, line, kTileW / 2);
         } else {
             HWY_ALIGN std::array<float, kTileW / 2 + 3 * kOverrun> halves;
-            averageAcross(halves.data(), line, kTileW / 2 + 2, 1.0F);
-            averageAcross(to, halves.data(), kTileW / 4, scale);
+            averageAcross(halves.data(), line, kTileW / 2 + 2);
+            averageAcross(to, halves.data(), kTileW / 4);
         }
     }
 }
 
 void averageTileHere(float* HWY_RESTRICT out, int outStride, int coarse, const float* HWY_RESTRICT mask, int maskStride,
-                     const float* HWY_RESTRICT values, int valueStride, float scale) {
-    if (coarse == 2) return averageBy<2>(out, outStride, mask, maskStride, values, valueStride, scale);
-    averageBy<4>(out, outStride, mask, maskStride, values, valueStride, scale);
+                     float even, const float* HWY_RESTRICT values, int valueStride) {
+    if (coarse == 2) return averageBy<2>(out, outStride, mask, maskStride, even, values, valueStride);
+    averageBy<4>(out, outStride, mask, maskStride, even, values, valueStride);
 }
 
 void keepTileHere(float* HWY_RESTRICT kept, const float* HWY_RESTRICT values, TileBits& bits) {
@@ -423,21 +424,24 @@ void fromBytesHere(float* HWY_RESTRICT out, const std::uint8_t* HWY_RESTRICT byt
         out[i] = static_cast<float>(bytes[i]) * unit;
 }
 
-void coverageHere(float* HWY_RESTRICT out, int outStride, int width, int rows,
-                  const std::array<const float*, 3>& inTiles, float scale) {
+void coverageHere(float* HWY_RESTRICT out, int outStride, int width, int rows, const std::array<Factor, 3>& factors) {
     const Lanes d;
     const int n = static_cast<int>(hn::Lanes(d));
-    const float *HWY_RESTRICT a = inTiles[0], *HWY_RESTRICT b = inTiles[1], *HWY_RESTRICT c = inTiles[2];
+    const Factor &f = factors[0], &g = factors[1], &h = factors[2];
     for (int y = 0; y < rows; ++y) {
-        for (int x = 0; x < width; x += n) {
-            const auto within = hn::FirstN(d, static_cast<std::size_t>(std::min(n, width - x)));
-            auto value = hn::Set(d, scale);
-            const int i = y * kTileW + x;
-            if (a) value = hn::Mul(value, hn::MaskedLoad(within, d, a + i));
-            if (b) value = hn::Mul(value, hn::MaskedLoad(within, d, b + i));
-            if (c) value = hn::Mul(value, hn::MaskedLoad(within, d, c + i));
-            hn::BlendedStore(value, within, d, out + y * outStride + x);
-        }
+        const int row = y * kTileW;
+        float* HWY_RESTRICT to = out + y * outStride;
+        const auto of = [&](const Factor& factor, int x) {
+            return factor.inTile ? hn::LoadU(d, factor.inTile + row + x) : hn::Set(d, factor.even);
+        };
+        const auto one = [&](const Factor& factor, int x) {
+            return factor.inTile ? factor.inTile[row + x] : factor.even;
+        };
+        int x = 0;
+        for (; x + n <= width; x += n)
+            hn::StoreU(hn::Mul(hn::Mul(of(f, x), of(g, x)), of(h, x)), d, to + x);
+        for (; x < width; ++x)
+            to[x] = one(f, x) * one(g, x) * one(h, x);
     }
 }
 
@@ -490,13 +494,13 @@ HWY_EXPORT(shareHere);
 HWY_EXPORT(shareWithinHere);
 HWY_EXPORT(settleHere);
 
-void prefixSums(float* sums, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
-                int valueStride) {
-    HWY_DYNAMIC_DISPATCH(prefixSumsHere)(sums, stride, width, rows, mask, maskStride, values, valueStride);
+void prefixSums(float* sums, int stride, int width, int rows, const float* mask, int maskStride, float even,
+                const float* values, int valueStride) {
+    HWY_DYNAMIC_DISPATCH(prefixSumsHere)(sums, stride, width, rows, mask, maskStride, even, values, valueStride);
 }
-void products(float* out, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
-              int valueStride, float scale) {
-    HWY_DYNAMIC_DISPATCH(productsHere)(out, stride, width, rows, mask, maskStride, values, valueStride, scale);
+void products(float* out, int stride, int width, int rows, const float* mask, int maskStride, float even,
+              const float* values, int valueStride) {
+    HWY_DYNAMIC_DISPATCH(productsHere)(out, stride, width, rows, mask, maskStride, even, values, valueStride);
 }
 void blurBlock(float* block, int blockStride, int width, int height, const float* sums, int sumStride,
                const EdgeKernel& kernel) {
@@ -513,9 +517,9 @@ void addTile(float* into, const float* shares, const float* mask, int maskStride
              float weight) {
     HWY_DYNAMIC_DISPATCH(addTileHere)(into, shares, mask, maskStride, values, valueStride, weight);
 }
-void averageTile(float* out, int outStride, int coarse, const float* mask, int maskStride, const float* values,
-                 int valueStride, float scale) {
-    HWY_DYNAMIC_DISPATCH(averageTileHere)(out, outStride, coarse, mask, maskStride, values, valueStride, scale);
+void averageTile(float* out, int outStride, int coarse, const float* mask, int maskStride, float even,
+                 const float* values, int valueStride) {
+    HWY_DYNAMIC_DISPATCH(averageTileHere)(out, outStride, coarse, mask, maskStride, even, values, valueStride);
 }
 TileBits keepTile(float* kept, const float* values) {
     TileBits bits;
@@ -525,8 +529,8 @@ TileBits keepTile(float* kept, const float* values) {
 void fromBytes(float* out, const std::uint8_t* bytes, int count, float unit) {
     HWY_DYNAMIC_DISPATCH(fromBytesHere)(out, bytes, count, unit);
 }
-void coverage(float* out, int outStride, int width, int rows, const std::array<const float*, 3>& inTiles, float scale) {
-    HWY_DYNAMIC_DISPATCH(coverageHere)(out, outStride, width, rows, inTiles, scale);
+void coverage(float* out, int outStride, int width, int rows, const std::array<Factor, 3>& factors) {
+    HWY_DYNAMIC_DISPATCH(coverageHere)(out, outStride, width, rows, factors);
 }
 void share(float* into, const float* by, bool first) { HWY_DYNAMIC_DISPATCH(shareHere)(into, by, first); }
 void shareWithin(float* into, const float* by) { HWY_DYNAMIC_DISPATCH(shareWithinHere)(into, by); }

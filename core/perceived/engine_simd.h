@@ -24,9 +24,14 @@ TileBits keepTile(float* kept, const float* values);
 /// out = unit * bytes.
 void fromBytes(float* out, const std::uint8_t* bytes, int count, float unit);
 
-/// out (row by row) = scale * the product of up to three blocks that lie in tiles; null ones are 1. Writes `width`
-/// numbers a row and none beyond.
-void coverage(float* out, int outStride, int width, int rows, const std::array<const float*, 3>& inTiles, float scale);
+/// A block that lies in a tile, or one number all over.
+struct Factor {
+    const float* inTile = nullptr;  ///< null: `even`
+    float even = 1.0F;
+};
+/// out (row by row) = the product of three factors, in their order whatever they are: a number gives the same bits as a
+/// block of it. Writes `width` numbers a row and none beyond.
+void coverage(float* out, int outStride, int width, int rows, const std::array<Factor, 3>& factors);
 
 /// into *= by over one tile, or into = by if `first`.
 void share(float* into, const float* by, bool first);
@@ -38,13 +43,13 @@ void shareWithin(float* into, const float* by);
 void settle(float* tile, float rounding);
 
 /// sums[y + 1] = sums[y] + mask[y] * values[y] for `rows` rows of `width` numbers; row 0 is set to 0. A null `mask`
-/// is 1.
-void prefixSums(float* sums, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
-                int valueStride);
+/// is `even` all over, to the same bits.
+void prefixSums(float* sums, int stride, int width, int rows, const float* mask, int maskStride, float even,
+                const float* values, int valueStride);
 
-/// out = scale * mask * values, row by row. A null `mask` is 1.
-void products(float* out, int stride, int width, int rows, const float* mask, int maskStride, const float* values,
-              int valueStride, float scale = 1.0F);
+/// out = mask * values, row by row. A null `mask` is `even` all over, to the same bits.
+void products(float* out, int stride, int width, int rows, const float* mask, int maskStride, float even,
+              const float* values, int valueStride);
 
 /// `block` (`width` x `height`, height rounded up to 4) from the running sums of its window.
 void blurBlock(float* block, int blockStride, int width, int height, const float* sums, int sumStride,
@@ -62,9 +67,10 @@ void resampleDownAdd(float* into, const float* across, int firstRow, int lastRow
 void addTile(float* into, const float* shares, const float* mask, int maskStride, const float* values, int valueStride,
              float weight);
 
-/// Averages of one tile: out (kTileW / coarse x kTileH / coarse) = scale * mask * values averaged; both start
-/// averagingLead(coarse) pixels left of and above the tile. One of them may be null: it is 1. `coarse` is 2 or 4.
-void averageTile(float* out, int outStride, int coarse, const float* mask, int maskStride, const float* values,
-                 int valueStride, float scale);
+/// Averages of one tile: out (kTileW / coarse x kTileH / coarse) = mask * values averaged; both start
+/// averagingLead(coarse) pixels left of and above the tile. A null `mask` is `even` all over, to the same bits; null
+/// `values` are 1, beside a mask. `coarse` is 2 or 4.
+void averageTile(float* out, int outStride, int coarse, const float* mask, int maskStride, float even,
+                 const float* values, int valueStride);
 
 }  // namespace ilf::view

@@ -130,13 +130,12 @@ private:
         }
         const bool coarse = shown.placing.coarse != 1;
         const Covered covered = coarse ? Covered{} : coveredOver(work_, part.grown(shown.reach), planes);
-        const float even = covered.mask ? 1.0F : covered.even;
         for (std::size_t c = 0; c < 3; ++c) {
             if (c + 1 < 3) fetchAhead(coarse ? look.averaged[c + 1] : scene_.albedo[c + 1], part.grown(shown.reach));
             if (!sumSource(work_, shown, part, {covered, coarse ? &look.averaged[c] : &scene_.albedo[c]})) continue;
             for (const CellShare& one : cells) {
                 addSummed(plane(c), work_, shown, shown.kernel(one.cell, c), scene_.tiles, tile_, part, one.shares,
-                          even * one.weight);
+                          one.weight);
             }
         }
     }

@@ -67,8 +67,8 @@ constexpr float kRounding = 1e-4F;
 /// One tile of averages of what `planes` cover, or of `values` under it; dark where nothing does.
 void averageInto(PaddedPlane& into, int coarse, ViewRect rect, const Covered& covered, const PaddedPlane* values) {
     averageTile(into.at(rect.x0 / coarse, rect.y0 / coarse), into.stride(), coarse, covered.mask, covered.stride,
-                values ? values->at(covered.window.x0, covered.window.y0) : nullptr, values ? values->stride() : 0,
-                covered.mask ? 1.0F : covered.even);
+                covered.even, values ? values->at(covered.window.x0, covered.window.y0) : nullptr,
+                values ? values->stride() : 0);
 }
 
 void fill(PaddedPlane& into, int coarse, ViewRect rect, float value) {
@@ -76,9 +76,11 @@ void fill(PaddedPlane& into, int coarse, ViewRect rect, float value) {
         std::fill_n(into.at(rect.x0 / coarse, rect.y0 / coarse + y), kTileW / coarse, value);
 }
 
-void copyScaled(PaddedPlane& into, const PaddedPlane& from, int coarse, ViewRect rect, float scale) {
-    products(into.at(rect.x0 / coarse, rect.y0 / coarse), into.stride(), kTileW / coarse, kTileH / coarse, nullptr, 0,
-             from.at(rect.x0 / coarse, rect.y0 / coarse), from.stride(), scale);
+void copyTile(PaddedPlane& into, const PaddedPlane& from, int coarse, ViewRect rect) {
+    for (int y = 0; y < kTileH / coarse; ++y) {
+        std::copy_n(from.at(rect.x0 / coarse, rect.y0 / coarse + y), kTileW / coarse,
+                    into.at(rect.x0 / coarse, rect.y0 / coarse + y));
+    }
 }
 
 PaddedPlane averagedPlane(TileCount tiles, int coarse) {
@@ -106,9 +108,8 @@ void updateAveragedAlpha(EngineScene& scene, bool all, int threads) {
         const int coarse = kCoarse[job.light];
         const ViewRect rect = scene.tiles.rect(job.tile), window = rect.grown(averagingLead(coarse));
         if (litBox(window, alpha).empty()) return fill(surface.averaged[job.light], coarse, rect, 0.0F);
-        const Covered covered = coveredOver(workspace(), window, alpha);
-        if (!covered.mask) return fill(surface.averaged[job.light], coarse, rect, covered.even);
-        averageInto(surface.averaged[job.light], coarse, rect, covered, nullptr);
+        if (evenOver(window, alpha) == 1.0F) return fill(surface.averaged[job.light], coarse, rect, 1.0F);
+        averageInto(surface.averaged[job.light], coarse, rect, maskOver(workspace(), window, alpha), nullptr);
     });
 }
 
@@ -292,8 +293,8 @@ void updateAveraged(EngineScene& scene, bool all, int threads) {
         for (std::size_t c = 0; c < 3; ++c) {
             if (dark) {
                 fill(look.averaged[c], coarse, rect, 0.0F);
-            } else if (!covered.mask) {  // the picture's own average will do
-                copyScaled(look.averaged[c], scene.averagedAlbedo[averagedAt(coarse)][c], coarse, rect, covered.even);
+            } else if (!covered.mask && covered.even == 1.0F) {  // the picture's own average, to the bit
+                copyTile(look.averaged[c], scene.averagedAlbedo[averagedAt(coarse)][c], coarse, rect);
             } else {
                 if (c + 1 < 3) fetchAhead(scene.albedo[c + 1], window);
                 averageInto(look.averaged[c], coarse, rect, covered, &scene.albedo[c]);

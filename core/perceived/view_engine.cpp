@@ -325,7 +325,8 @@ void ViewEngine::State::light(const Document& now, const Program& played, const 
     scene.changedLight.assign(levels, {});
     const auto toProjector = projectorFromCamera(now);
     const auto toCamera = toProjector.inverted();
-    if (all || !lightMap) lightMap.emplace(toProjector, setting.scale, scene.size, played.projector);
+    if (all || !lightMap || lightMap->projector != played.projector)
+        lightMap.emplace(toProjector, setting.scale, scene.size, played.projector);
     for (std::size_t level = 0; level < levels; ++level) {
         std::vector<bool> marked(static_cast<std::size_t>(scene.tiles.count()), false);
         const auto changed = rasters[level].update(played.images[level]);
@@ -428,7 +429,7 @@ Result<PerceivedView> ViewEngine::see(const Document& document, const Plan& plan
         const bool geometry = all || shift != s.shift || !samePlan || !sameRequest || !s.cut || !s.cut->sameBut(cut) ||
                               s.document.scene.scale != document.scene.scale || s.document.wearer != document.wearer ||
                               s.document.rig != document.rig;
-        const bool reshared = all || !s.cut || !s.cut->sameShares(cut);
+        const bool reshared = all || !s.cut || !(s.cut->sameBut(cut) || s.cut->sameShares(cut));
         s.cut = std::move(cut);
         s.shift = shift;
         s.surfaces(document, request, geometry, reshared);

@@ -126,7 +126,7 @@ cv::Mat byTiles(const cv::Mat& picture, double radius, const view::RungRules& ru
     for (int tile = 0; tile < tiles.count() && coarse > 1; ++tile) {
         const view::ViewRect rect = tiles.rect(tile), window = rect.grown(view::averagingLead(coarse));
         view::averageTile(kept.averages.at(rect.x0 / coarse, rect.y0 / coarse), kept.averages.stride(), coarse, nullptr,
-                          0, kept.values.at(window.x0, window.y0), kept.values.stride(), 1.0F);
+                          0, 1.0F, kept.values.at(window.x0, window.y0), kept.values.stride());
     }
     std::array<float, view::kTilePixels> seen;
     for (int tile = 0; tile < tiles.count(); ++tile) {

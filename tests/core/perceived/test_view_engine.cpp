@@ -287,3 +287,43 @@ TEST_CASE("view engine: an eye turned to a point outside the picture is refused,
     request.gazeAt = {20.0, 20.0};
     CHECK(engine.see(p.document, p.plan, p.program, request));
 }
+
+TEST_CASE("view engine: whether light is even beside it changes no bit of a tile") {
+    constexpr Size kLarge{640, 360};
+    Document d = document({region("near", Look::blur, 0.3,
+                                  maskOf(kLarge, [](int i, int j) { return std::hypot(i - 520.0, j - 60.0) < 40.0; }))},
+                          Look::neutral, 2.0, kLarge);
+    d.scene.scale.focalPixels = 900.0;
+    const auto lit = [&](const Played& p, int value, bool hole) {
+        Program program = p.program;
+        for (LightImage& image : program.images) {
+            for (int row = 0; row < image.rows(); ++row) {
+                for (int column = 0; column < image.columns(); ++column) {
+                    Tile tile;
+                    for (int y = 0; y < kTile; ++y) {
+                        for (int x = 0; x < kTile; ++x) {
+                            const double away = std::hypot(column * kTile + x - 224.0, row * kTile + y - 144.0);
+                            tile.at(x, y) = static_cast<std::uint8_t>(hole && away < 5.0 ? 7 : value);
+                        }
+                    }
+                    image.setTile(column, row, boxed(tile));
+                }
+            }
+        }
+        return program;
+    };
+    const Played p = played(d);
+    for (const Rung rung : {Rung::dragging, Rung::rest, Rung::idle}) {
+        for (const int value : {128, 255}) {
+            ViewRequest request;
+            request.rung = rung;
+            const Program even = lit(p, value, false), holed = lit(p, value, true);
+            ViewEngine engine(2), fresh(1), freshHoled(1);
+            REQUIRE(engine.see(p.document, p.plan, even, request));
+            CHECK(identical(*engine.see(p.document, p.plan, holed, request),
+                            *freshHoled.see(p.document, p.plan, holed, request)));
+            CHECK(identical(*engine.see(p.document, p.plan, even, request),
+                            *fresh.see(p.document, p.plan, even, request)));
+        }
+    }
+}
