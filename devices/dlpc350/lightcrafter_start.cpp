@@ -45,8 +45,7 @@ Result<void> LightCrafter::setTimes(const PatternSequence& sequence) {
     const int entries = static_cast<int>(sequence.entries.size());
     if (const auto ok = set(LutControl{entries, true, entries, 1}); !ok) return ok;
     if (const auto ok = set(TriggerMode::vsync); !ok) return ok;
-    // Rounded down, so that all of them still fit into the frame; not below a whole number written as a fraction.
-    const auto us = static_cast<std::uint32_t>(std::floor(sequence.entries.front().exposure.in(1.0_us) + 1e-3));
+    const auto us = static_cast<std::uint32_t>(wholeMicroseconds(sequence.entries.front().exposure));
     return set(ExposurePeriod{us, us});
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <string>
 
 #include "core/plan/projector.h"
@@ -83,6 +84,8 @@ Second shortestExposure(int depth) {
     return shortestSlot(rig);
 }
 
+double wholeMicroseconds(Second exposure) { return std::floor(exposure.in(1.0_us) + 1e-3); }
+
 Result<void> checkedSequence(const PatternSequence& sequence, Second frame) {
     const auto& entries = sequence.entries;
     if (!isFinite(frame) || frame <= 0.0_s)
@@ -110,7 +113,7 @@ Result<void> checkedSequence(const PatternSequence& sequence, Second frame) {
             first = i;
         }
         load.planes += entry.number == kBlackPattern ? 0 : entry.depth;
-        load.time += entry.exposure;
+        load.time += wholeMicroseconds(entry.exposure) * 1.0_us;
     }
     return checkedFrame(load, first, frame);
 }

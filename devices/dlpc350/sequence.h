@@ -62,6 +62,10 @@ Second shortestExposure(int depth);
 /// frame of length `frame` (measured), more than 24 bit planes in a frame.
 Result<void> checkedSequence(const PatternSequence& sequence, Second frame);
 
+/// As the board is told an exposure: rounded down, so that all of a frame still fit into it; not below a whole number
+/// written as a fraction.
+double wholeMicroseconds(Second exposure);
+
 /// How an entry travels: three bytes of the pattern table.
 struct LutEntry {
     Trigger trigger = Trigger::none;

@@ -60,6 +60,7 @@ Result<PhaseAdvice> PhaseLock::edge(double sample, double offset, std::int64_t m
             if (!following_ && counts_.strays > static_cast<std::int64_t>(first_.size())) {
                 first_.clear();
                 last_.reset();
+                since_ = sample;
                 counts_.strays = 0;
             }
             return PhaseAdvice{};
@@ -136,8 +137,9 @@ Result<PhaseAdvice> PhaseLock::followed(double sweeps, double phase, double erro
     return PhaseAdvice{PhaseAdvice::Kind::slip, way};
 }
 
-Result<void> PhaseLock::heard(double sample) const {
-    const double sweeps = (sample - last_.value_or(0.0)) / setup_.samplesPerSweep;
+Result<void> PhaseLock::heard(double sample) {
+    if (!since_) since_ = sample;
+    const double sweeps = (sample - last_.value_or(*since_)) / setup_.samplesPerSweep;
     // The first one may take as long as finding out that none comes.
     if (sweeps <= (last_ ? kLostSweeps : 4.0 * kLostSweeps)) return {};
     return fail(Fault::device,

@@ -58,7 +58,7 @@ public:
     /// followed.
     Result<PhaseAdvice> edge(double sample, double offset, std::int64_t moved);
     /// Tells that samples up to `sample` hold no other edge. Error (`device`): the trigger is lost, for six sweeps.
-    Result<void> heard(double sample) const;
+    Result<void> heard(double sample);
     bool locked() const { return locked_; }
     PhaseReport report() const;
 
@@ -75,7 +75,8 @@ private:
     std::vector<Sighting> first_;  ///< until there are enough to fit
     std::vector<double> errors_;   ///< of the last two seconds, a ring
     std::size_t oldest_ = 0;
-    std::optional<double> last_;
+    std::optional<double> last_;   ///< edge
+    std::optional<double> since_;  ///< when listening for the first one began
     bool following_ = false, locked_ = false;
     double phase_ = 0.0, perSweep_ = 0.0;  ///< filtered: at the last edge, and its change
     std::int64_t told_ = 0;                ///< by how many samples the start will have been moved

@@ -67,6 +67,8 @@ TEST_CASE("pattern tables: what the planner counts on fits") {
 
 TEST_CASE("pattern tables: what the tables forbid is refused in words") {
     CHECK(refusal({}) == "The pattern table is empty: a sweep needs at least one slot.");
+    // 60.01 Hz, as the board measures in steps of 0.01: what is sent fits, what is meant would not by 3 us.
+    CHECK(refusal(evenSequence(24, 1, Second::fromSi(1.0 / 1440.0)), Second::fromSi(1.0 / 60.01)).empty());
     CHECK(
         refusal(evenSequence(24, 1, 694.0_us), 16.0_ms) ==
         "The frame that starts with entry 0 of the pattern table is lit for 16656 us; the video's frame, as measured, "

@@ -158,7 +158,11 @@ TEST_CASE("phase lock: strays are left out, and a lost trigger is told") {
     const auto lost = lock.heard(at + 7.0 * 800.0);
     CHECK(lost.error().fault == Fault::device);
     CHECK(lost.error().what.find("The projector's trigger is lost: none came for 13") == 0);
-    CHECK(PhaseLock(PhaseLockSetup{}).heard(30.0 * 800.0).error().what.find("No trigger comes") == 0);
+    // The output has played for long when listening begins.
+    PhaseLock late(PhaseLockSetup{});
+    CHECK(late.heard(500.0 * 800.0));
+    CHECK(late.heard(520.0 * 800.0));
+    CHECK(late.heard(530.0 * 800.0).error().what.find("No trigger comes") == 0);
 }
 
 TEST_CASE("phase lock: a stray that came first does not keep it from locking") {
