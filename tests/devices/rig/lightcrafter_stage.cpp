@@ -81,8 +81,8 @@ TEST_CASE("lightcrafter stage: another wave goes through white, another rate thr
 }
 
 TEST_CASE("lightcrafter stage: slots wait until the lens is predicted to be settled") {
-    ScriptedRig rig;
     std::chrono::nanoseconds told{0}, lit{0};
+    ScriptedRig rig;
     rig.room.failsAt = [&](const std::string& call) {
         if (call == "lens: play") told = rig.room.now;
         if (call == "video: frame") lit = rig.room.now;

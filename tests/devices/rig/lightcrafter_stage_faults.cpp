@@ -38,10 +38,10 @@ TEST_CASE("lightcrafter stage: whichever call fails, at whichever time, the scen
             REQUIRE(failing < 300);
             CAPTURE(failing);
             CAPTURE(afterEffect);
+            int calls = 0;  // before the rig, whose stage makes safe light when it goes
+            std::string failed;
             ScriptedRig rig;
             rig.room.failsAfterEffect = afterEffect;
-            int calls = 0;
-            std::string failed;
             rig.room.failsAt = [&](const std::string& call) {
                 if (++calls != failing) return false;
                 failed = call;
@@ -79,9 +79,9 @@ TEST_CASE("lightcrafter stage: what fails for good from any call on is left, and
             REQUIRE(failing < 300);
             CAPTURE(gone);
             CAPTURE(failing);
-            ScriptedRig rig;
             int calls = 0;
             bool failed = false;
+            ScriptedRig rig;
             rig.room.failsAt = [&](const std::string& call) {
                 if (!call.starts_with(gone) || ++calls < failing) return false;
                 failed = true;
@@ -129,8 +129,10 @@ TEST_CASE(
         const auto failRate = *rc::gen::element(0, 5, 20);
         rig.room.failsAfterEffect = *rc::gen::arbitrary<bool>();
         const auto chances = *rc::gen::container<std::vector<int>>(64, rc::gen::inRange(0, 100));
-        std::size_t asked = 0;
-        rig.room.failsAt = [&](const std::string&) { return chances[asked++ % chances.size()] < failRate; };
+        // By value: the stage makes safe light when it goes, after all of these.
+        rig.room.failsAt = [chances, failRate, asked = std::size_t{0}](const std::string&) mutable {
+            return chances[asked++ % chances.size()] < failRate;
+        };
         const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 12));
         bool faulted = false;
         for (const int step : steps) {
