@@ -1,8 +1,10 @@
 #include "devices/tape/usb_tape.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
+#include <type_traits>
+
+#include "devices/usb/hex.h"
 
 namespace ilf::devices {
 namespace {
@@ -10,18 +12,24 @@ namespace {
 constexpr const char* kStreamOut = "stream-out";
 constexpr const char* kStreamIn = "stream-in";
 
-std::string hex(unsigned value, int digits) {
-    char text[16];
-    std::snprintf(text, sizeof text, "%0*X", digits, value);
-    return text;
-}
-
 std::string addressOf(Endpoint endpoint) { return hex(endpoint.address, 2); }
 std::string addressOf(const VendorRequest& request) {
     return hex(request.request, 2) + " " + hex(request.value, 4) + " " + hex(request.index, 4);
 }
 std::string opening(std::size_t transferBytes, int inFlight) {
     return std::to_string(inFlight) + "x" + std::to_string(transferBytes);
+}
+
+/// Notes an exchange by how it ended: with what was received where that was asked for, else with what was sent.
+template <class T>
+void noteResult(TapeRecorder& recorder, const std::string& kind, const std::string& where, const Result<T>& result,
+                std::span<const std::uint8_t> sent) {
+    if (!result) return recorder.failed(kind, where, sent, result.error());
+    if constexpr (std::is_same_v<T, Bytes>) {
+        recorder.succeeded(kind, where, *result);
+    } else {
+        recorder.succeeded(kind, where, sent);
+    }
 }
 
 /// A stream that was played when it was opened.
@@ -53,47 +61,32 @@ RecordingLink::RecordingLink(std::unique_ptr<UsbLink> link, std::shared_ptr<Tape
 
 Result<void> RecordingLink::send(Endpoint to, std::span<const std::uint8_t> data, Milliseconds limit) {
     auto done = link_->send(to, data, limit);
-    if (done)
-        recorder_->succeeded("out", addressOf(to), data);
-    else
-        recorder_->failed("out", addressOf(to), data, done.error());
+    noteResult(*recorder_, "out", addressOf(to), done, data);
     return done;
 }
 
 Result<Bytes> RecordingLink::receive(Endpoint from, std::size_t most, Milliseconds limit) {
     auto done = link_->receive(from, most, limit);
-    if (done)
-        recorder_->succeeded("in", addressOf(from), *done);
-    else
-        recorder_->failed("in", addressOf(from), {}, done.error());
+    noteResult(*recorder_, "in", addressOf(from), done, {});
     return done;
 }
 
 Result<void> RecordingLink::controlOut(const VendorRequest& request, std::span<const std::uint8_t> data,
                                        Milliseconds limit) {
     auto done = link_->controlOut(request, data, limit);
-    if (done)
-        recorder_->succeeded("control-out", addressOf(request), data);
-    else
-        recorder_->failed("control-out", addressOf(request), data, done.error());
+    noteResult(*recorder_, "control-out", addressOf(request), done, data);
     return done;
 }
 
 Result<Bytes> RecordingLink::controlIn(const VendorRequest& request, std::size_t length, Milliseconds limit) {
     auto done = link_->controlIn(request, length, limit);
-    if (done)
-        recorder_->succeeded("control-in", addressOf(request), *done);
-    else
-        recorder_->failed("control-in", addressOf(request), {}, done.error());
+    noteResult(*recorder_, "control-in", addressOf(request), done, {});
     return done;
 }
 
 Result<void> RecordingLink::clearHalt(Endpoint endpoint) {
     auto done = link_->clearHalt(endpoint);
-    if (done)
-        recorder_->succeeded("clear-halt", addressOf(endpoint), {});
-    else
-        recorder_->failed("clear-halt", addressOf(endpoint), {}, done.error());
+    noteResult(*recorder_, "clear-halt", addressOf(endpoint), done, {});
     return done;
 }
 
@@ -106,10 +99,7 @@ Result<std::unique_ptr<UsbStream>> RecordingLink::streamOut(Endpoint to, std::si
     };
     auto stream = link_->streamOut(to, transferBytes, inFlight, std::move(noting));
     const std::string opened = where + " " + opening(transferBytes, inFlight);
-    if (stream)
-        recorder_->succeeded("open-stream", opened, {});
-    else
-        recorder_->failed("open-stream", opened, {}, stream.error());
+    noteResult(*recorder_, "open-stream", opened, stream, {});
     return stream;
 }
 
@@ -122,10 +112,7 @@ Result<std::unique_ptr<UsbStream>> RecordingLink::streamIn(Endpoint from, std::s
     };
     auto stream = link_->streamIn(from, transferBytes, inFlight, std::move(noting));
     const std::string opened = where + " " + opening(transferBytes, inFlight);
-    if (stream)
-        recorder_->succeeded("open-stream", opened, {});
-    else
-        recorder_->failed("open-stream", opened, {}, stream.error());
+    noteResult(*recorder_, "open-stream", opened, stream, {});
     return stream;
 }
 

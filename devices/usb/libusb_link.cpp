@@ -1,8 +1,8 @@
 #include "devices/usb/libusb_link.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "devices/usb/hex.h"
 #include "devices/usb/libusb_stream.h"
 #include "devices/usb/usb_words.h"
 
@@ -11,12 +11,6 @@ namespace {
 
 /// libusb waits without end for 0.
 unsigned limitOf(Milliseconds limit) { return static_cast<unsigned>(std::max<Milliseconds::rep>(limit.count(), 1)); }
-
-std::string hex(unsigned value, int digits) {
-    char text[16];
-    std::snprintf(text, sizeof text, "%0*X", digits, value);
-    return text;
-}
 
 std::string sending(std::size_t bytes, Endpoint to) {
     return "sending " + std::to_string(bytes) + " bytes to endpoint " + hex(to.address, 2);
