@@ -8,6 +8,7 @@
 
 #include "core/base/geometry.h"
 #include "core/base/quantity.h"
+#include "core/document/rig_devices.h"
 #include "core/lens/waveform.h"
 
 namespace ilf {
@@ -48,6 +49,7 @@ struct Rig {
     Dioptre lensMax = 10.0_D;
     /// Where a camera pixel lands on the projector's raster; absent: the picture fitted into the raster.
     std::optional<Homography<ProjectorFrame, CameraFrame>> registration;
+    std::optional<RigDevices> devices;     ///< absent: simulated ones
     std::string provenance = "simulated";  ///< simulated, measured: never measured unless it was
     bool operator==(const Rig&) const = default;
 };

@@ -4,13 +4,15 @@
 #include <cstring>
 #include <type_traits>
 
-#include "messages_generated.h"
+#include "devices/link/codec_parts.h"
 
 namespace ilf::devices {
 namespace {
 
-using flatbuffers::FlatBufferBuilder;
-using flatbuffers::Offset;
+using namespace codec;
+// Declared here, so that they are overloads of those below and not hidden by them.
+using codec::decode;
+using codec::encode;
 constexpr std::size_t kTileBytes = static_cast<std::size_t>(kTile) * kTile;
 
 // ---- values to bytes ----
@@ -71,6 +73,9 @@ Offset<void> encode(FlatBufferBuilder& fb, const Status& m) {
     const auto fault = fb.CreateString(m.fault);
     const auto refusal = fb.CreateString(m.lastRefusal);
     const auto lensName = fb.CreateString(m.lensName);
+    const auto devices = encode(fb, m.devices);
+    const auto limits = fb.CreateVectorOfStrings(m.limits);
+    const auto timing = m.timing ? encode(fb, *m.timing) : Offset<wire::StageTiming>();
     wire::StatusBuilder b(fb);
     b.add_light(static_cast<wire::Light>(m.light));
     b.add_hold(m.hold);
@@ -96,6 +101,12 @@ Offset<void> encode(FlatBufferBuilder& fb, const Status& m) {
     b.add_supervisor_pid(m.supervisorPid);
     b.add_last_refusal(refusal);
     b.add_lens_name(lensName);
+    b.add_emulated(m.emulated);
+    if (m.timing) b.add_timing(timing);
+    b.add_has_lens_temperature(m.lensTemperature_C.has_value());
+    b.add_lens_temperature_C(m.lensTemperature_C.value_or(0.0));
+    b.add_devices(devices);
+    b.add_limits(limits);
     return b.Finish().Union();
 }
 Offset<void> encode(FlatBufferBuilder& fb, const SetWaveform& m) {
@@ -161,19 +172,6 @@ Offset<void> encode(FlatBufferBuilder& fb, const DeviceState& m) {
 }
 
 // ---- bytes to values; the verifier has seen to the offsets ----
-
-Result<int> within(int value, int most, const char* what) {
-    if (value > most) return fail(Fault::badFile, std::string("a message names an impossible ") + what + ".");
-    return value;
-}
-
-template <class To, class From>
-Result<To> enumeration(From value, From last, const char* what) {
-    if (value > last) return fail(Fault::badFile, std::string("a message holds an unknown ") + what + ".");
-    return static_cast<To>(value);
-}
-
-std::string text(const flatbuffers::String* s) { return s != nullptr ? s->str() : std::string(); }
 
 Result<Harmonics> decode(const flatbuffers::Vector<double>* parts) {
     Harmonics f;
@@ -293,6 +291,13 @@ Result<Body> decode(const wire::Status& m) {
     s.simulated = m.simulated();
     s.lastRefusal = text(m.last_refusal());
     s.lensName = text(m.lens_name());
+    s.emulated = m.emulated();
+    if (m.timing() != nullptr) s.timing = decode(*m.timing());
+    if (m.has_lens_temperature()) s.lensTemperature_C = m.lens_temperature_C();
+    auto devices = decode(m.devices());
+    if (!devices) return tl::unexpected(devices.error());
+    s.devices = *std::move(devices);
+    s.limits = decode(m.limits());
     return Body(std::move(s));
 }
 
@@ -400,6 +405,16 @@ Result<Body> decodeBody(const wire::Message& m) {
         return decode(*m.body_as_SlotImage());
     case wire::Body::DeviceState:
         return decode(*m.body_as_DeviceState());
+    case wire::Body::ReadReceived:
+        return Body(ReadReceived{});
+    case wire::Body::ReadExposure:
+        return Body(ReadExposure{m.body_as_ReadExposure()->number()});
+    case wire::Body::Received:
+        return decode(*m.body_as_Received());
+    case wire::Body::ExposedLight:
+        return decode(*m.body_as_ExposedLight());
+    case wire::Body::RigMishap:
+        return decode(*m.body_as_RigMishap());
     case wire::Body::NONE:
         break;
     }

@@ -1,6 +1,7 @@
 // The messages between studio, output core and devices, as values.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -79,6 +80,12 @@ struct Status {
     bool simulated = true;
     std::string lensName;     ///< "simulated lens, preset datasheet": whose calibration plans need
     std::string lastRefusal;  ///< why the last update was not taken; empty once one is
+    // As in StageReport, and what the core may and may not do on this machine.
+    bool emulated = false;
+    std::optional<StageTiming> timing;
+    std::optional<double> lensTemperature_C;
+    std::vector<DeviceLine> devices;
+    std::vector<std::string> limits;  ///< "Real-time priority is not allowed: ...", one sentence each
     bool operator==(const Status&) const = default;
 };
 
@@ -156,8 +163,58 @@ struct DeviceState {
     bool operator==(const DeviceState&) const = default;
 };
 
+// To and from an emulated rig (devices/emulated_rig): what its cables brought.
+/// Takes hold of the newest whole sweep; ReadExposure then asks for its light.
+struct ReadReceived {
+    bool operator==(const ReadReceived&) const = default;
+};
+struct ReadExposure {
+    int number = 0;  ///< of Received::exposures
+    bool operator==(const ReadExposure&) const = default;
+};
+/// One exposure of the projector, as long as its lamp was steady. Times count from the sweep's trigger.
+struct Exposure {
+    Second start, length;
+    int bits = 8;
+    unsigned colours = 7;  ///< of the lamp: red 1, green 2, blue 4
+    bool video = false;    ///< plain video: a whole frame
+    bool operator==(const Exposure&) const = default;
+};
+struct Received {
+    std::int64_t trigger_ns = 0;  ///< the sweep's, in CLOCK_MONOTONIC
+    Second sweep;                 ///< from this trigger to the next
+    Size raster;                  ///< of the exposures
+    std::vector<Exposure> exposures;
+    std::vector<Dioptre> left, right;  ///< the lenses' powers, evenly from the trigger over the sweep
+    std::array<double, 2> temperature_C{30.0, 30.0};
+    std::array<double, 2> most_mA{0.0, 0.0};  ///< the greatest current of the sweep, either direction
+    bool patterns = false;                    ///< the projector shows patterns, not video
+    bool harmed = false;                      ///< something came in that would hurt a projector
+    int ledCurrentWrites = 0;
+    std::uint64_t frames = 0, triggers = 0, transfers = 0;  ///< since the rig was switched on
+    std::vector<std::string> log;                           ///< what befell it, oldest first
+    bool operator==(const Received&) const = default;
+};
+/// Answers ReadExposure.
+struct ExposedLight {
+    int number = 0;
+    Size raster;
+    std::vector<std::uint8_t> light;  ///< linear, 255 = full, row by row
+    bool operator==(const ExposedLight&) const = default;
+};
+/// Lets something go wrong, by the words of devices/emulators/fault.h: device "projector" or "lenses"; kind "nack",
+/// "silence", "stall", "unplug", "wrong-mode", "underrun", "over-temperature", "dropped-trigger", "clock-drift",
+/// "stuck-frame"; "plug" puts the cable back in, "none" ends all of this device; for device "display" "unplug", "plug".
+struct RigMishap {
+    std::string device, kind;
+    std::uint64_t after = 0, times = 0;  ///< times 0: from then on for ever
+    double amount = 0.0;
+    bool operator==(const RigMishap&) const = default;
+};
+
 using Body = std::variant<Hello, ProgramUpdate, Ack, Refused, SafeLight, Status, SetWaveform, SetSlotRate, Swap,
-                          SteadyLight, LensToRest, Read, ReadSlot, InjectFault, Done, SlotImage, DeviceState>;
+                          SteadyLight, LensToRest, Read, ReadSlot, InjectFault, Done, SlotImage, DeviceState,
+                          ReadReceived, ReadExposure, Received, ExposedLight, RigMishap>;
 
 /// An answer carries the id of the question; messages that answer nothing carry 0.
 struct Message {

@@ -3,13 +3,15 @@
 
 #include <chrono>
 #include <cstdint>
-#include <string>
 
 #include "core/base/image.h"
 #include "core/base/quantity.h"
 #include "core/base/result.h"
+#include "core/document/rig_devices.h"
 
 namespace ilf::devices {
+
+using ilf::DisplayIdentity;
 
 /// Red, green, blue, 8 bits each, sent as they are: no gamma, no scaling, no dither.
 using VideoFrame = Image<std::uint8_t>;
@@ -20,14 +22,6 @@ struct VideoMode {
     Size size;
     Hertz refresh;  ///< measured from the frames that went out; 0: not measured yet
     bool operator==(const VideoMode&) const = default;
-};
-
-/// Which display a picture must be on, so that it never lands on the operator's.
-struct DisplayIdentity {
-    std::string connector;     ///< "HDMI-2"
-    std::string maker, model;  ///< as its EDID says
-    std::string serial;        ///< may be empty
-    bool operator==(const DisplayIdentity&) const = default;
 };
 
 struct ScannedOut {

@@ -7,9 +7,10 @@ namespace ilf::devices {
 namespace {
 
 const char* orderName(const Body& request) {
-    static constexpr std::array kNames{"hello", "load",   "ack",  "refused",      "safe light",   "status",
-                                       "wave",  "rate",   "swap", "steady light", "lens to rest", "read",
-                                       "slot",  "inject", "done", "slot image",   "state"};
+    static constexpr std::array kNames{
+        "hello", "load",          "ack",           "refused",  "safe light", "status", "wave", "rate",
+        "swap",  "steady light",  "lens to rest",  "read",     "slot",       "inject", "done", "slot image",
+        "state", "read received", "read exposure", "received", "exposed",    "mishap"};
     static_assert(kNames.size() == std::variant_size_v<Body>);
     return kNames[request.index()];
 }

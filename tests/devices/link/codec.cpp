@@ -65,7 +65,47 @@ Status anyStatus() {
     s.simulated = *rc::gen::arbitrary<bool>();
     s.lastRefusal = anyText();
     s.lensName = anyText();
+    s.emulated = *rc::gen::arbitrary<bool>();
+    if (*rc::gen::arbitrary<bool>())
+        s.timing = StageTiming{*rc::gen::arbitrary<bool>(), Second::fromSi(anyNumber()), Second::fromSi(anyNumber()),
+                               anyNumber(), anyWord()};
+    if (*rc::gen::arbitrary<bool>()) s.lensTemperature_C = anyNumber();
+    for (int i = *rc::gen::inRange(0, 4); i > 0; --i)
+        s.devices.push_back(
+            {anyText(), *rc::gen::element(DeviceHealth::well, DeviceHealth::silent), anyText(), anyText()});
+    s.limits = *rc::gen::arbitrary<std::vector<std::string>>();
     return s;
+}
+
+Received anyReceived() {
+    const auto side = [] { return *rc::gen::inRange(0, 2000); };
+    const auto powers = [] { return *rc::gen::container<std::vector<Dioptre>>(rc::gen::exec(anyPower)); };
+    Received r;
+    r.trigger_ns = *rc::gen::arbitrary<std::int64_t>();
+    r.sweep = Second::fromSi(anyNumber());
+    r.raster = {side(), side()};
+    for (int i = *rc::gen::inRange(0, 24); i > 0; --i)
+        r.exposures.push_back({Second::fromSi(anyNumber()), Second::fromSi(anyNumber()), *rc::gen::inRange(1, 9),
+                               *rc::gen::inRange(0U, 8U), *rc::gen::arbitrary<bool>()});
+    r.left = powers();
+    r.right = powers();
+    r.temperature_C = {anyNumber(), anyNumber()};
+    r.most_mA = {anyNumber(), anyNumber()};
+    r.patterns = *rc::gen::arbitrary<bool>();
+    r.harmed = *rc::gen::arbitrary<bool>();
+    r.ledCurrentWrites = *rc::gen::arbitrary<int>();
+    r.frames = anyWord();
+    r.triggers = anyWord();
+    r.transfers = anyWord();
+    r.log = *rc::gen::arbitrary<std::vector<std::string>>();
+    return r;
+}
+
+ExposedLight anyExposedLight() {
+    const Size raster{*rc::gen::inRange(0, 50), *rc::gen::inRange(0, 50)};
+    const auto pixels = static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height);
+    return {*rc::gen::inRange(0, 1000), raster,
+            *rc::gen::container<std::vector<std::uint8_t>>(pixels, rc::gen::arbitrary<std::uint8_t>())};
 }
 
 DeviceState anyState() {
@@ -148,8 +188,18 @@ Message anyMessage(std::size_t kind) {
         return {id, Done{*rc::gen::arbitrary<std::int64_t>()}};
     case 15:
         return {id, SlotImage{small(), test::picture({200, 130}, *rc::gen::inRange(0U, 50U)), anyWord()}};
-    default:
+    case 16:
         return {id, anyState()};
+    case 17:
+        return {id, ReadReceived{}};
+    case 18:
+        return {id, ReadExposure{small()}};
+    case 19:
+        return {id, anyReceived()};
+    case 20:
+        return {id, anyExposedLight()};
+    default:
+        return {id, RigMishap{anyText(), anyText(), anyWord(), anyWord(), anyNumber()}};
     }
 }
 
