@@ -1,6 +1,5 @@
-// Pages below the list: region (in low windows), rig, history; the tabs of all.
+// Pages below the list: region (in low windows), history; the tabs of all.
 #include <array>
-#include <cmath>
 
 #include "ui/icons.h"
 #include "ui/widgets.h"
@@ -22,53 +21,6 @@ constexpr std::array<Tab, 7> tabs{{{Page::selected, "Region###region"},
                                    {Page::history, "History###history"}}};
 
 }  // namespace
-
-void rigPage(Panel& p) {
-    const Rig& rig = p.document().rig;
-    text(rig.name, colour::text, Font::strong);
-    ImGui::SameLine();
-    text(rig.provenance, rig.provenance == "measured" ? colour::good : colour::warn);
-    const auto rate = [&](const char* label, const char* id, double value, FieldSpec spec, auto put) {
-        if (const auto change = numberRow(p, label, id, value, spec)) {
-            Rig next = rig;
-            put(next, change->value);
-            p.edit(change->commits, SetRig{next});
-        }
-    };
-    derivedRow(p, "Projector",
-               std::to_string(rig.projector.width) + " \u00d7 " + std::to_string(rig.projector.height) + " px");
-    rate("Sweep", "###sweepRate", rig.sweepRate.si(),
-         {Unit::hertz, 30.0, 240.0, 0.5, "Sweeps per second; below 60 Hz light in slots flickers."},
-         [](Rig& r, double v) { r.sweepRate = Hertz::fromSi(v); });
-    rate("Slots", "###slotRate", rig.slotRate.si(),
-         {Unit::hertz, 60.0, 10000.0, 5.0, "Slots per second: a whole multiple of the sweep rate."},
-         [](Rig& r, double v) { r.slotRate = Hertz::fromSi(v); });
-    rate("Delay", "###delay", rig.projectorDelay.si(), {Unit::millisecond, 0.0, 0.05, 1e-5, "From trigger to light."},
-         [](Rig& r, double v) { r.projectorDelay = Second::fromSi(v); });
-    rate("Lens from", "###lensMin", rig.lensMin.si(), {Unit::dioptre, -30.0, 0.0, 0.02, "Least power of the lens."},
-         [](Rig& r, double v) { r.lensMin = Dioptre::fromSi(v); });
-    rate("Lens to", "###lensMax", rig.lensMax.si(), {Unit::dioptre, 0.0, 30.0, 0.02, "Largest power of the lens."},
-         [](Rig& r, double v) { r.lensMax = Dioptre::fromSi(v); });
-    primariesRows(p);
-    const CoreStatus& core = p.view.core;
-    ImGui::Dummy({1, p.px(4)});
-    heading("OUTPUT CORE");
-    if (!core.connected) {
-        wrapped("Not connected: what the room shows is not known here. The studio keeps trying.", colour::fault);
-        return;
-    }
-    derivedRow(p, "Projector", core.projector);
-    derivedRow(p, "Lens", core.lens);
-    derivedRow(p, "Light",
-               core.light == Light::steady    ? "steady white"
-               : core.light == Light::slotted ? "plays a program"
-                                              : "unknown");
-    derivedRow(p, "Revision",
-               std::to_string(core.revisionPlayed) + " played, " + std::to_string(core.revisionSent) + " sent");
-    derivedRow(p, "Swaps", std::to_string(core.swaps) + ", " + std::to_string(core.droppedUpdates) + " dropped");
-    derivedRow(p, "To light", formatted(core.strokeToSwap_ms * 1e-3, Unit::millisecond), "From a stroke to its swap.");
-    if (!core.lastFault.empty()) wrapped("Last fault: " + core.lastFault, core.faultSeen ? colour::dim : colour::fault);
-}
 
 void historyPage(Panel& p) {
     const auto& labels = p.view.historyLabels;

@@ -3,6 +3,7 @@
 
 #include "core/document/region_at.h"
 #include "ui/canvas.h"
+#include "ui/devices_card.h"
 #include "ui/widgets.h"
 
 namespace ilf::ui {
@@ -64,7 +65,8 @@ void statusLine(Panel& p) {
     std::string light = "light unknown";
     ImU32 ink = colour::fault;
     if (view.core.connected && view.core.light == Light::slotted) {
-        light = "light +" + milliseconds(view.core.strokeToSwap_ms) + (view.core.simulated ? ", simulated" : "");
+        light = "light +" + milliseconds(view.core.strokeToSwap_ms) +
+                (view.core.simulated ? ", " + kindOf(view.core) : std::string());
         ink = colour::good;
     } else if (view.core.connected && view.core.light == Light::steady) {
         light = "steady light";

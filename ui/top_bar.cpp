@@ -2,6 +2,7 @@
 #include <array>
 #include <string_view>
 
+#include "ui/devices_card.h"
 #include "ui/icons.h"
 #include "ui/new_region.h"
 #include "ui/widgets.h"
@@ -105,12 +106,12 @@ void deviceChips(Panel& p) {
                              : camera.name + ": live.")) {
         p.state.page = Page::scene;
     }
-    const std::string simulated = core.simulated ? " (simulated)" : "";
+    const std::string kind = core.simulated ? kindOf(core) : std::string();
+    const std::string simulated = core.simulated ? " (" + kind + ")" : "";
     const auto machine = [&](const char* id, const char* name, const std::string& says, bool well) {
         ImGui::SameLine(0, p.px(6));
         const ImU32 dot = !core.connected ? colour::fault : well ? colour::good : colour::warn;
-        const std::string shown =
-            name + (core.simulated ? std::string(compact ? " sim" : " simulated") : std::string());
+        const std::string shown = name + (core.simulated ? " " + (compact ? kind.substr(0, 3) : kind) : std::string());
         if (chip(id, shown, dot,
                  core.connected ? says + simulated
                                 : "The output core is not connected: what the room shows is not known here.")) {

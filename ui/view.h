@@ -31,9 +31,28 @@ enum class Light {
 };
 
 /// What the output core last said. `simulated` is shown wherever its figures are.
+enum class DeviceHealth : std::uint8_t { well, absent, unplugged, wrongMode, silent };
+
+/// One device of the rig.
+struct Device {
+    std::string what;  ///< "projector", "display", "lenses"
+    DeviceHealth health = DeviceHealth::absent;
+    std::string name;  ///< with its place
+    std::string line;  ///< what it does, or what is wrong and what would help
+};
+
 struct CoreStatus {
+    /// How far what is played is from where it belongs.
+    struct Timing {
+        bool locked = false;
+        Second phase, jitter;
+        double driftPpm = 0.0;
+        std::uint64_t missedTriggers = 0;
+    };
+
     bool connected = false;
     bool simulated = true;
+    bool emulated = false;  ///< the drivers of real devices over emulated cables; also simulated
     Light light = Light::unknown;
     std::uint64_t revisionPlayed = 0;
     std::uint64_t revisionSent = 0;
@@ -44,6 +63,10 @@ struct CoreStatus {
     bool projectorWell = false, lensWell = false;
     std::string lastFault;  ///< stays until acknowledged
     bool faultSeen = true;
+    std::optional<Timing> timing;             ///< none: nothing is measured
+    std::optional<double> lensTemperature_C;  ///< none: nobody measures it
+    std::vector<Device> devices;              ///< empty: projector and lens lines say all there is
+    std::vector<std::string> limits;          ///< what the core may not do on this machine, one sentence each
 };
 
 struct CameraStatus {

@@ -75,7 +75,7 @@ TEST_CASE("seeing: the rim is switched on; colours wait for a rig that knows its
 }
 
 TEST_CASE("seeing: primaries are edited as three wavelengths, and their order is checked") {
-    Desk desk(twoRegions(), kTall);
+    Desk desk(twoRegions(), {1280, 3200});  // the devices lie above the numbers
     Rig rig = desk.document().rig;
     rig.primaries = {623e-9_m, 530e-9_m, 460e-9_m};
     desk.history.preview(*edited(desk.document(), SetRig{rig}));

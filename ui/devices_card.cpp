@@ -1,0 +1,127 @@
+#include "ui/devices_card.h"
+
+#include <cstdio>
+
+#include "ui/icons.h"
+#include "ui/widgets.h"
+
+namespace ilf::ui {
+namespace {
+
+ImU32 inkOf(DeviceHealth health) {
+    switch (health) {
+    case DeviceHealth::well:
+        return colour::good;
+    case DeviceHealth::absent:
+        return colour::dim;
+    case DeviceHealth::wrongMode:
+        return colour::warn;
+    case DeviceHealth::unplugged:
+    case DeviceHealth::silent:
+        return colour::fault;
+    }
+    return colour::dim;
+}
+
+std::string microseconds(double seconds) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.0f \u00b5s", seconds * 1e6);
+    return text;
+}
+
+/// Devices that report nothing of their own have the two lines of every rig.
+std::vector<Device> devicesOf(const CoreStatus& core) {
+    if (!core.devices.empty()) return core.devices;
+    const auto health = [](bool well) { return well ? DeviceHealth::well : DeviceHealth::silent; };
+    return {{"projector", health(core.projectorWell), "Projector", core.projector},
+            {"lenses", health(core.lensWell), "Lenses", core.lens}};
+}
+
+void deviceRow(Panel& p, const Device& device) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImU32 ink = inkOf(device.health);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float line = ImGui::GetTextLineHeight(), radius = p.px(4);
+    const float right = at.x + ImGui::GetContentRegionAvail().x;
+    // Not by colour alone: a ring for what is missing, a disc for what is there, and the word.
+    const ImVec2 centre{at.x + radius + p.px(1), at.y + line / 2};
+    if (device.health == DeviceHealth::absent || device.health == DeviceHealth::unplugged)
+        draw.AddCircle(centre, radius, ink, 0, p.px(1.5));
+    else
+        draw.AddCircleFilled(centre, radius, ink);
+    ImGui::SetCursorScreenPos({at.x + p.px(16), at.y});
+    wrapped(device.name.empty() ? device.what : device.name, colour::text, Font::strong);
+    const std::string state = word(device.health);
+    const float width = ImGui::CalcTextSize(state.c_str()).x;
+    // Beside the name where there is room, else on a line of its own.
+    if (ImGui::GetItemRectMax().x + p.px(12) + width < right)
+        ImGui::SameLine(right - width - ImGui::GetWindowPos().x);
+    else
+        ImGui::SetCursorScreenPos({at.x + p.px(16), ImGui::GetCursorScreenPos().y});
+    text(state, ink);
+    if (!device.line.empty()) {
+        ImGui::SetCursorScreenPos({at.x + p.px(16), ImGui::GetCursorScreenPos().y});
+        wrapped(device.line, device.health == DeviceHealth::well ? colour::dim : colour::text, Font::small);
+    }
+    ImGui::Dummy({1, p.px(3)});
+}
+
+}  // namespace
+
+std::string kindOf(const CoreStatus& core) {
+    return core.emulated ? "emulated" : core.simulated ? "simulated" : "hardware";
+}
+
+std::string word(DeviceHealth health) {
+    switch (health) {
+    case DeviceHealth::well:
+        return "well";
+    case DeviceHealth::absent:
+        return "not found";
+    case DeviceHealth::unplugged:
+        return "unplugged";
+    case DeviceHealth::wrongMode:
+        return "wrong mode";
+    case DeviceHealth::silent:
+        return "not answering";
+    }
+    return "";
+}
+
+std::vector<TimingRow> timingRows(const CoreStatus& core) {
+    std::vector<TimingRow> rows;
+    if (core.timing) {
+        const CoreStatus::Timing& t = *core.timing;
+        rows.push_back({"Phase",
+                        t.locked ? microseconds(t.phase.si()) + ", \u00b1" + microseconds(t.jitter.si()) : "not locked",
+                        "Farthest of the last two seconds between the sweep and the projector's triggers, and their "
+                        "scatter."});
+        char drift[48];
+        std::snprintf(drift, sizeof drift, "%+.1f ppm", t.driftPpm);
+        rows.push_back({"Drift", drift, "Of the lenses' clock against the projector's; followed sample by sample."});
+        rows.push_back({"Triggers", std::to_string(t.missedTriggers) + " missed", "Since slotted light came on."});
+    }
+    if (core.lensTemperature_C) {
+        char warm[32];
+        std::snprintf(warm, sizeof warm, "%.1f \u00b0C", *core.lensTemperature_C);
+        rows.push_back({"Lens", warm, "Temperature of the lens."});
+    }
+    return rows;
+}
+
+void devicesCard(Panel& p) {
+    const CoreStatus& core = p.view.core;
+    heading("DEVICES");
+    if (!core.connected) {
+        wrapped("Not connected: what the room shows is not known here. The studio keeps trying.", colour::fault);
+        return;
+    }
+    const std::string kind = kindOf(core);
+    const float width = ImGui::CalcTextSize(kind.c_str()).x;
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+    text(kind, core.simulated ? colour::warn : colour::good);
+    for (const Device& device : devicesOf(core))
+        deviceRow(p, device);
+}
+
+}  // namespace ilf::ui
