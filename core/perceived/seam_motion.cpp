@@ -1,8 +1,10 @@
 #include "core/perceived/seam_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace ilf {
 namespace {
@@ -12,6 +14,7 @@ constexpr double kTau_s = 4.94e-3;
 constexpr double kForgotten_s = 0.17;
 constexpr int kSamplesPerPeriod = 24;
 constexpr int kPhases = 8;
+constexpr long kMostSweeps = 24;  ///< looked at in each phase
 
 double felt(double t) {
     if (t <= 0.0 || t > kForgotten_s) return 0.0;
@@ -70,53 +73,67 @@ double pursued(const EdgeLight& light, const MovingEdge& edge, MaskTiming timing
 class Passing {
 public:
     Passing(const EdgeLight& light, const MovingEdge& edge, MaskTiming timing)
-        : light_(light), edge_(edge), timing_(timing), ramp_(edge), period_(light.period.si()) {}
+        : light_(light), edge_(edge), timing_(timing), ramp_(edge), period_(light.period.si()) {
+        for (int i = 0; i < kSamplesPerPeriod; ++i)
+            flashes_[static_cast<std::size_t>(i)] = flashesFeltAt(period_ * i / kSamplesPerPeriod);
+    }
 
     double worst() const {
         const double crossing = ramp_.reach() / edge_.speed_m_s + period_;
-        const double step = period_ / kSamplesPerPeriod;
+        const auto first = static_cast<long>(std::floor(-crossing / period_));
+        const auto last = static_cast<long>(std::ceil((crossing + kForgotten_s) / period_)) + 1;
+        // A slow edge stands nearly where it was a sweep before: no more of its sweeps than tell its way, spread over
+        // it, others for each phase.
+        const long stride = std::max(1L, (last - first) / kMostSweeps);
         double most = 0.0;
         for (int phase = 0; phase < kPhases; ++phase) {
             const double passes = period_ * phase / kPhases;
-            for (double t = passes - crossing; t < passes + crossing + kForgotten_s; t += step)
-                most = std::max(most, std::abs(at(t, passes) - 1.0));
+            for (long sweep = first + phase * stride / kPhases; sweep <= last; sweep += stride) {
+                for (const auto& flashes : flashes_)
+                    most = std::max(most, std::abs(at(flashes, static_cast<double>(sweep) * period_, passes) - 1.0));
+            }
         }
         return std::max(0.0, most - ripple());
     }
 
 private:
-    double at(double t, double passes) const {
-        return summed(t, [&](double start, const EdgeLight::Pulse& pulse) {
-            const double flash = start + pulse.at.si();
-            const double m = ramp_(edge_.speed_m_s * (passes - flash) - late(pulse, edge_, timing_));
-            return pulse.displaced ? m : 1.0 - m;
-        });
-    }
-    double ripple() const {
-        double most = 0.0;
-        for (const bool displaced : {true, false}) {
-            for (int i = 0; i < kSamplesPerPeriod; ++i) {
-                const double even = summed(period_ * i / kSamplesPerPeriod, [&](double, const EdgeLight::Pulse& pulse) {
-                    return pulse.displaced == displaced ? 1.0 : 0.0;
-                });
-                most = std::max(most, std::abs(even - 1.0));
-            }
-        }
-        return most;
-    }
-    template <class Share>
-    double summed(double t, Share&& share) const {
-        double sum = 0.0;
-        const auto first = static_cast<long>(std::floor((t - kForgotten_s) / period_)) - 1;
-        const auto last = static_cast<long>(std::ceil(t / period_));
-        for (long k = first; k <= last; ++k) {
+    /// A pulse that is still felt at a moment of a sweep.
+    struct Flash {
+        const EdgeLight::Pulse* pulse;
+        double since;  ///< when its own sweep began, counted from the start of the sweep it is felt in
+        double share;
+    };
+
+    std::vector<Flash> flashesFeltAt(double t) const {
+        std::vector<Flash> flashes;
+        for (auto k = static_cast<long>(std::floor((t - kForgotten_s) / period_)) - 1; k <= 0; ++k) {
             const double start = static_cast<double>(k) * period_;
             for (const auto& pulse : light_.pulses) {
                 const double feels = felt(t - start - pulse.at.si());
-                if (feels > 0.0) sum += period_ * pulse.weight * feels * share(start, pulse);
+                if (feels > 0.0) flashes.push_back({&pulse, start, period_ * pulse.weight * feels});
             }
         }
+        return flashes;
+    }
+    double at(const std::vector<Flash>& flashes, double sweep, double passes) const {
+        double sum = 0.0;
+        for (const Flash& flash : flashes) {
+            const double when = sweep + flash.since + flash.pulse->at.si();
+            const double m = ramp_(edge_.speed_m_s * (passes - when) - late(*flash.pulse, edge_, timing_));
+            sum += flash.share * (flash.pulse->displaced ? m : 1.0 - m);
+        }
         return sum;
+    }
+    double ripple() const {
+        double most = 0.0;
+        for (const auto& flashes : flashes_) {
+            std::array<double, 2> even{};
+            for (const Flash& flash : flashes)
+                even[flash.pulse->displaced ? 1 : 0] += flash.share;
+            for (const double light : even)
+                most = std::max(most, std::abs(light - 1.0));
+        }
+        return most;
     }
 
     const EdgeLight& light_;
@@ -124,6 +141,7 @@ private:
     MaskTiming timing_;
     BlurredRamp ramp_;
     double period_;
+    std::array<std::vector<Flash>, kSamplesPerPeriod> flashes_;
 };
 
 }  // namespace
