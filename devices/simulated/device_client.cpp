@@ -21,7 +21,9 @@ Result<Body> DeviceClient::call(const Body& request) {
     };
     // A question is asked twice before the devices count as lost; an order gets that time at once, and a whole program
     // more of it.
-    const bool isQuestion = std::holds_alternative<Read>(request) || std::holds_alternative<ReadSlot>(request);
+    const bool isQuestion = std::holds_alternative<Read>(request) || std::holds_alternative<ReadSlot>(request) ||
+                            std::holds_alternative<ReadReceived>(request) ||
+                            std::holds_alternative<ReadExposure>(request);
     const auto limit = isQuestion ? timeout_ : (std::holds_alternative<ProgramUpdate>(request) ? 5 : 2) * timeout_;
     const auto deadline = Clock::now() + limit;
     const std::uint64_t id = ++lastId_;

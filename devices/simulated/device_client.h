@@ -1,4 +1,4 @@
-// The client of the simulated devices' process: for the stage, the supervisor and tests.
+// The client of the simulated devices' process, and of an emulated rig's: for the stage, the supervisor and tests.
 #pragma once
 
 #include <chrono>
@@ -20,6 +20,10 @@ public:
 
     Result<DeviceState> readState() { return ask<DeviceState>(*this, Read{}); }
     Result<SlotImage> readSlot(int slot) { return ask<SlotImage>(*this, ReadSlot{slot}); }
+    /// Of an emulated rig: takes hold of its newest whole sweep, and then the light of one of its exposures.
+    Result<Received> readReceived() { return ask<Received>(*this, ReadReceived{}); }
+    Result<ExposedLight> readExposure(int number) { return ask<ExposedLight>(*this, ReadExposure{number}); }
+    Result<Done> mishap(const RigMishap& mishap) { return ask<Done>(*this, mishap); }
     /// Steady light, lens to rest; tried three times.
     Result<void> safeLight();
 
