@@ -161,6 +161,11 @@ Json written(const Rig& rig, Json json) {
     } else {
         json.erase("projector_from_camera");
     }
+    if (rig.devices) {
+        json.set("devices", written(*rig.devices, json.object("devices")));
+    } else {
+        json.erase("devices");
+    }
     json.set("provenance", rig.provenance);
     return json;
 }
@@ -205,6 +210,7 @@ Result<Rig> rigFrom(const Json& json, const std::string& file) {
         rig.registration.emplace();
         std::copy(m.begin(), m.end(), rig.registration->m.begin());
     }
+    if (reader.has("devices")) rig.devices = rigDevicesFrom(reader.object("devices"));
     rig.provenance = reader.word("provenance");
     return judged(std::move(rig), reader, file);
 }

@@ -12,8 +12,11 @@ namespace ilf::projects {
 /// `before` is what the file held: the keys this version does not know are kept.
 Json written(const Wearer& wearer, Json before);
 Json written(const Rig& rig, Json before);
+Json written(const RigDevices& devices, Json before);
 
 Result<Wearer> wearerFrom(const Json& json, const std::string& file);
 Result<Rig> rigFrom(const Json& json, const std::string& file);
+/// What is not said is as a rig with unnamed devices has it.
+RigDevices rigDevicesFrom(JsonReader reader);
 
 }  // namespace ilf::projects

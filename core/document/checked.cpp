@@ -243,7 +243,7 @@ Result<void> checked(const Rig& rig) {
                                            "that there is no way back: register again.");
         }
     }
-    return {};
+    return rig.devices ? checked(*rig.devices) : Result<void>{};
 }
 
 Result<void> checkedTogether(const Wearer& wearer, const Rig& rig) {

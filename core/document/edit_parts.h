@@ -18,6 +18,9 @@ Result<void> inRange(const std::string& spoken, double value, double low, double
 /// The name without spaces around it; refuses empty ones, more than 200 bytes and control characters.
 Result<std::string> checkedName(const std::string& name);
 
+/// Places, voltages, currents and points that devices of this kind can have.
+Result<void> checked(const RigDevices& devices);
+
 /// d_Ee P < 1 for every power the rig can reach: beyond, the lens has its focus in front of the pupil.
 Result<void> checkedTogether(const Wearer& wearer, const Rig& rig);
 
