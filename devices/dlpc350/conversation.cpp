@@ -5,8 +5,6 @@
 namespace ilf::devices::dlpc350 {
 namespace {
 
-/// TI's own read time-out.
-constexpr Milliseconds kAnswerLimit{2000};
 /// A reply that lies ready comes at the next poll of the endpoint; full-speed interrupt endpoints are polled at least
 /// every 10 ms as TI's are set up, twice that for slow ones.
 constexpr Milliseconds kDrainLimit{20};
@@ -66,7 +64,7 @@ Result<Bytes> Conversation::ask(Command command) {
 
 Result<void> Conversation::sent(Command command, std::span<const Packet> packets) {
     for (const Packet& packet : packets)
-        if (const auto ok = link_->send(out_, packet, kAnswerLimit); !ok) return silent(command, ok.error());
+        if (const auto ok = link_->send(out_, packet, limit_); !ok) return silent(command, ok.error());
     return {};
 }
 
@@ -81,14 +79,14 @@ Result<Reply> Conversation::replyTo(Command command, bool isRead) {
 }
 
 Result<Reply> Conversation::nextReply(Command command, bool isRead) {
-    const auto first = link_->receive(in_, kPacketBytes, kAnswerLimit);
+    const auto first = link_->receive(in_, kPacketBytes, limit_);
     if (!first) return silent(command, first.error());
     auto reply = Reply::begun(*first);
     if (!reply) return tl::unexpected(about(reply.error()));
     // An old reply is read to its end as well, or its later packets would be taken for headers.
     const bool mayGoOn = reply->sequence() == sequence_ ? isRead : reply->toRead();
     while (mayGoOn && !reply->whole()) {
-        const auto next = link_->receive(in_, kPacketBytes, kAnswerLimit);
+        const auto next = link_->receive(in_, kPacketBytes, limit_);
         if (!next) return silent(command, next.error());
         if (const auto added = reply->add(*next); !added) return tl::unexpected(about(added.error()));
     }

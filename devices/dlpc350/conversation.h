@@ -19,6 +19,8 @@ public:
     /// "The LightCrafter 4500 at 1-2": how sentences start.
     const std::string& name() const { return name_; }
     const UsbIdentity& identity() const { return link_->identity(); }
+    /// How long each message may take, and each packet of an answer; TI's own 2 s until it is told.
+    void setLimit(Milliseconds limit) { limit_ = limit; }
 
     /// Sends `payload` and waits until the board acknowledges it.
     Result<void> tell(Command command, Data payload);
@@ -44,6 +46,7 @@ private:
     Endpoint out_, in_;
     std::string name_;
     std::uint8_t sequence_ = 0;
+    Milliseconds limit_{2000};  ///< TI's own read time-out
     bool mayBeHalted_ = false;  ///< a transfer failed: an endpoint that stalled stays so until it is told
     bool unsettled_ = true;     ///< an answer of an earlier message, or of an earlier program, may still come
 };

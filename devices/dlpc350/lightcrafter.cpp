@@ -8,9 +8,23 @@ namespace {
 
 constexpr Second kPollPause = 100.0_ms;  ///< TI's own program
 constexpr int kMostPolls = 20;
+/// While slots run: half a second of not knowing is more than enough.
+constexpr Patience kWatching{Milliseconds(500), 0};
 constexpr std::chrono::nanoseconds kAskEvery = std::chrono::seconds(1);
 /// Of video nobody measured: the slowest there is.
 constexpr Second kLongestFrame = 40.0_ms;
+
+/// The board is waited for so long, until the end of this.
+class Patiently {
+public:
+    Patiently(Conversation& board, const Patience& patience) : board_(board) { board_.setLimit(patience.answer); }
+    ~Patiently() { board_.setLimit(Patience{}.answer); }
+    Patiently(const Patiently&) = delete;
+    Patiently& operator=(const Patiently&) = delete;
+
+private:
+    Conversation& board_;
+};
 
 void append(std::vector<std::string>& to, std::vector<std::string> more) {
     to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
@@ -94,12 +108,13 @@ Result<VideoSignal> LightCrafter::videoAfterSwitching() {
     }
 }
 
-Result<void> LightCrafter::stop() {
+Result<void> LightCrafter::stop(const Patience& patience) {
+    const Patiently waits(board_, patience);
     toldToRun_ = false;
     askedAt_.reset();
     const auto order = payloadOf(PatternRun::stopped);
     if (const auto ok = board_.tell(kCommandOf<PatternRun>, order); !ok) return ok;
-    for (int polls = 0; polls < kMostPolls; ++polls) {
+    for (int polls = 0; polls < patience.polls; ++polls) {
         const auto run = board_.ask<PatternRun>();
         if (!run) return tl::unexpected(run.error());
         if (*run == PatternRun::stopped) return {};
@@ -108,12 +123,13 @@ Result<void> LightCrafter::stop() {
     return tl::unexpected(about("was told to stop its patterns but says they still run. Switch its power off and on."));
 }
 
-Result<void> LightCrafter::setDisplay(Display display) {
+Result<void> LightCrafter::setDisplay(Display display, const Patience& patience) {
+    const Patiently waits(board_, patience);
     const auto before = board_.ask<Display>();
     if (!before) return tl::unexpected(before.error());
     if (*before == display) return {};
     if (const auto ok = board_.tell(kCommandOf<Display>, payloadOf(display)); !ok) return ok;
-    for (int polls = 0; polls < kMostPolls; ++polls) {
+    for (int polls = 0; polls < patience.polls; ++polls) {
         const auto found = board_.ask<Display>();
         if (!found) return tl::unexpected(found.error());
         if (*found == display) return {};
@@ -122,15 +138,16 @@ Result<void> LightCrafter::setDisplay(Display display) {
     return tl::unexpected(mismatch<Display>(name(), display, *before));
 }
 
-Result<void> LightCrafter::showVideo() {
-    if (const auto ok = stop(); !ok) return ok;
+Result<void> LightCrafter::showVideo(const Patience& patience) {
+    if (const auto ok = stop(patience); !ok) return ok;
     wait(twoFrames());  // it says "stopped" before its last frame ends, and takes no change until then
-    return setDisplay(Display::video);
+    return setDisplay(Display::video, patience);
 }
 
 Result<Watched> LightCrafter::watch() {
     const auto now = clock_.now();
     if (askedAt_ && now - *askedAt_ < kAskEvery) return watched_;
+    const Patiently waits(board_, kWatching);
     const auto display = board_.ask<Display>();
     if (!display) return tl::unexpected(display.error());
     const auto run = board_.ask<PatternRun>();
@@ -163,7 +180,7 @@ Result<Watched> LightCrafter::watch() {
 Error LightCrafter::stoppedAfter(const Error& error) {
     constexpr int kTries = 3;  // the first may only drain what the failed message left behind
     for (int tries = 0; tries < kTries; ++tries)
-        if (stop()) return error;
+        if (stop(kBrief)) return error;
     return {error.fault, error.what + " It could not be stopped either: its light is not known."};
 }
 

@@ -50,6 +50,14 @@ struct Watched {
     std::vector<std::string> troubles;  ///< what is wrong, and what would help
 };
 
+/// How long the board is waited for.
+struct Patience {
+    Milliseconds answer{2000};  ///< to each message
+    int polls = 20;             ///< of 100 ms, until it has done what it was told
+};
+/// On the way to safe light: a board that is silent costs about 0.2 s.
+inline constexpr Patience kBrief{Milliseconds(200), 3};
+
 /// Calls come from one thread. The board keeps doing what it was told when this object goes away. Order of operations,
 /// double start, pauses and poll rate: TI's programmer's guide (DLPU010, table 4-2) and its users' drivers.
 class LightCrafter {
@@ -74,12 +82,13 @@ public:
     /// before the first change leave the board as it is; after any later error patterns are stopped.
     Result<Started> start(const PatternSequence& sequence);
     /// Returns once the board says that no pattern runs.
-    Result<void> stop();
+    Result<void> stop(const Patience& patience = {});
     /// Patterns stopped and plain video shown, every pixel of it all the time: what steady white light needs of the
     /// board. Firmware 4 was seen to hang when switched to and fro some dozen times, so never in a loop.
-    Result<void> showVideo();
+    Result<void> showVideo(const Patience& patience = {});
 
-    /// Asks the board at most once a second, since asking disturbs patterns; in between, what it saw last.
+    /// Asks the board at most once a second, since asking disturbs patterns; in between, what it saw last. A board that
+    /// is silent for half a second is an error.
     Result<Watched> watch();
 
     const std::string& name() const { return board_.name(); }
@@ -92,7 +101,7 @@ private:
     /// Tells a setting and compares what the board then says it is.
     template <class T>
     Result<void> set(const T& value);
-    Result<void> setDisplay(Display display);
+    Result<void> setDisplay(Display display, const Patience& patience = {});
     Result<VideoSignal> usableVideo();
     Result<VideoSignal> videoAfterSwitching();
     Result<Started> arranged(const PatternSequence& sequence, const VideoSignal& video);

@@ -62,11 +62,13 @@ Result<void> AnyProjectorStage::load(const Program& program) {
 Result<void> AnyProjectorStage::swap() {
     if (!loaded_) return fail(Fault::device, "Nothing is loaded that could be put on show.");
     if (const auto shown = video_->show(*loaded_); !shown) {
-        shows_ = Shows::unknown;
+        loaded_.reset();
         safeLight();
         return tl::unexpected(shown.error());
     }
     shows_ = Shows::rehearsal;
+    everThere_ = true;
+    trouble_.reset();
     return {};
 }
 
@@ -74,17 +76,24 @@ Result<void> AnyProjectorStage::heartbeat() {
     const auto mode = video_->mode();
     if (!mode) {
         shows_ = Shows::unknown;
+        loaded_.reset();
+        trouble_ = mode.error();
         return tl::unexpected(mode.error());
     }
     if (shows_ == Shows::unknown) safeLight();
+    if (trouble_) return tl::unexpected(*trouble_);
     return {};
 }
 
 void AnyProjectorStage::safeLight() noexcept {
     shows_ = Shows::unknown;
     try {
-        const auto mode = video_->mode();
-        if (mode && video_->show(uniformFrame(mode->size, 255))) shows_ = Shows::white;
+        const auto white =
+            video_->mode().and_then([&](const VideoMode& mode) { return video_->show(uniformFrame(mode.size, 255)); });
+        trouble_.reset();
+        if (!white) trouble_ = white.error();
+        if (white) shows_ = Shows::white;
+        everThere_ = everThere_ || white;
     } catch (const std::exception&) {
         // Out of memory: what is shown stays, and is said to be unknown.
         shows_ = Shows::unknown;
@@ -111,7 +120,24 @@ StageReport AnyProjectorStage::report() const {
                                "; not in time, so nothing is blurred";
         break;
     }
+    const DeviceHealth health = !trouble_ && shows_ != Shows::unknown ? DeviceHealth::well
+                                : everThere_                          ? DeviceHealth::unplugged
+                                                                      : DeviceHealth::absent;
+    report.devices = {{"display", health, display, trouble_ ? trouble_->what : deviceLine()}};
     return report;
+}
+
+std::string AnyProjectorStage::deviceLine() const {
+    switch (shows_) {
+    case Shows::unknown:
+        break;
+    case Shows::white:
+        return "It shows steady white light; TAKE shows the rehearsal.";
+    case Shows::rehearsal:
+        return "It shows " + (chosen_.slot ? "slot " + std::to_string(*chosen_.slot) : "the mix of all slots") +
+               ", not in time: nothing is blurred.";
+    }
+    return "It was not looked for yet.";
 }
 
 }  // namespace ilf::devices

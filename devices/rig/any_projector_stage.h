@@ -23,6 +23,9 @@ public:
     static Result<std::unique_ptr<AnyProjectorStage>> open(std::shared_ptr<VideoOutput> video, StagePurpose purpose,
                                                            RehearsedLight shown = {});
 
+    /// Leaves white light.
+    ~AnyProjectorStage() override { safeLight(); }
+
     /// Refuses programs for another raster than the display's, and slots that are not there.
     Result<void> load(const Program& program) override;
     Result<void> swap() override;
@@ -32,12 +35,15 @@ public:
     std::string name() const override { return "any projector, for rehearsal: nothing is blurred"; }
 
 private:
+    std::string deviceLine() const;
     AnyProjectorStage(std::shared_ptr<VideoOutput> video, RehearsedLight shown)
         : video_(std::move(video)), chosen_(shown) {}
 
     std::shared_ptr<VideoOutput> video_;
     RehearsedLight chosen_;
     std::optional<VideoFrame> loaded_;
+    bool everThere_ = false;
+    std::optional<Error> trouble_;  ///< why its light is not known
     enum class Shows { unknown, white, rehearsal } shows_ = Shows::unknown;
 };
 

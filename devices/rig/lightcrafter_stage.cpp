@@ -45,6 +45,8 @@ Result<void> LightCrafterStage::swap() {
     auto done = only ? published(loaded_->frame.picture) : began();
     if (done) done = confirmed();
     if (!done) return faulted(done.error());
+    for (Known* device : {&projectorKnown_, &displayKnown_, &lensesKnown_})
+        device->cleared();
     return {};
 }
 
@@ -60,12 +62,13 @@ Result<void> LightCrafterStage::began() {
     if (auto well = videoWell(); !well) return well;
     const double off = mode_.refresh / program.waveform.rate - 1.0;
     if (mode_.refresh > 0.0_Hz && std::abs(off) > kMostOff)
-        return fail(Fault::device, "The projector's video comes at " + std::to_string(mode_.refresh.si()) +
-                                       " Hz, the program sweeps at " + std::to_string(program.waveform.rate.si()) +
-                                       " Hz; set the display to that rate (59.94 is not 60).");
+        return displayKnown_.wrong(
+            {Fault::device, "The projector's video comes at " + std::to_string(mode_.refresh.si()) +
+                                " Hz, the program sweeps at " + std::to_string(program.waveform.rate.si()) +
+                                " Hz; set the display to that rate (59.94 is not 60)."});
     if (frame.picture.size() != mode_.size)
-        return fail(Fault::device,
-                    "The projector's display does not have the mode its slots are packed for; set 912x1140.");
+        return displayKnown_.wrong(
+            {Fault::device, "The projector's display does not have the mode its slots are packed for; set 912x1140."});
     if (auto settled = lensSettled(program.waveform, program.projectorDelay); !settled) return settled;
     if (auto run = patternsRun(frame.sequence); !run) return run;
     if (auto locked = inStep(); !locked) return locked;
@@ -74,13 +77,17 @@ Result<void> LightCrafterStage::began() {
     return published(frame.picture);
 }
 
-Result<void> LightCrafterStage::published(const VideoFrame& frame) {
+Result<std::chrono::nanoseconds> LightCrafterStage::lit(const VideoFrame& frame) {
     const auto out = rig_.video->show(frame);
-    if (!out) return tl::unexpected(out.error());
+    if (!out) return displayKnown_.missing(out.error());
     const Second period = mode_.refresh > 0.0_Hz ? 1.0 / mode_.refresh : kLongestFrame;
-    lightBegan_ = out->at + inNs(running_ ? period : 0.0_s);
-    waitUntil(lightBegan_);
-    return {};
+    const auto began = out->at + inNs(running_ ? period : 0.0_s);
+    waitUntil(began);
+    return began;
+}
+
+Result<void> LightCrafterStage::published(const VideoFrame& frame) {
+    return lit(frame).map([&](std::chrono::nanoseconds began) { lightBegan_ = began; });
 }
 
 Result<void> LightCrafterStage::lensSettled(const Waveform& wave, Second triggerAhead) {
@@ -104,7 +111,7 @@ Result<void> LightCrafterStage::patternsRun(const dlpc350::PatternSequence& sequ
     if (running_ == sequence) return {};
     running_.reset();
     light_ = Light::unknown;  // dark while it is arranged
-    if (auto started = projector_->start(sequence); !started) return started;
+    if (auto started = projector_->start(sequence); !started) return projectorKnown_.wrong(started.error());
     running_ = sequence;
     light_ = Light::white;
     return {};
@@ -123,11 +130,13 @@ Result<void> LightCrafterStage::inStep() {
         if (!phase->locked) unlocked = now;
         if (now - unlocked > inNs(settling_) && phase->locked) break;
         if (now - begun > kLongestLocking)
-            return fail(Fault::device, "The lens's sweep does not lock to the projector's triggers; check the cable "
-                                       "from TRIG_OUT_2 to the DAC box, and the echo's wire.");
+            return lensesKnown_.wrong({Fault::device,
+                                       "The lens's sweep does not lock to the projector's triggers; check the cable "
+                                       "from TRIG_OUT_2 to the DAC box, and the echo's wire."});
         wait(kListenEvery);
     }
     lockedSince_ = rig_.clock.now();
+    missingBefore_ = phase_->missing;
     return {};
 }
 

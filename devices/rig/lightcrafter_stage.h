@@ -30,6 +30,7 @@ struct LightCrafterRig {
     std::function<Result<PatternFrame>(const Program&)> packed;
     Clock clock = Clock::steady();
     std::string name = "LightCrafter 4500 and lenses";  ///< "emulated ..." where that is so
+    bool emulated = false;                              ///< the cables lead to emulated devices
 };
 
 /// The order of a start: white video; lenses to their sweep, until they are predicted to be settled; the board's
@@ -39,8 +40,9 @@ struct LightCrafterRig {
 /// its patterns (about half a second, its documents say no more); that cannot be helped over USB.
 ///
 /// Any error of a device ends in safe light before it is returned, and only a new `load` and `swap` lights slots
-/// again. A device whose safe state could not be told is let go and opened again, at most once a second, by
-/// `heartbeat` and `safeLight`, which then tell it.
+/// again. The lenses go to rest as soon as the light is white, or was asked to be; a silent board keeps them from it
+/// for 0.2 s at most, and only where the display is lost as well. A device whose safe state could not be told is let go
+/// and opened again, at most once a second, by `heartbeat` and `safeLight`, which then tell it.
 class LightCrafterStage : public Stage {
 public:
     explicit LightCrafterStage(LightCrafterRig rig) : rig_(std::move(rig)) {}
@@ -66,7 +68,23 @@ private:
         PatternFrame frame;
     };
 
+    /// What is known of one device, for its line.
+    struct Known {
+        bool ever = false;  ///< it was there once
+        DeviceHealth health = DeviceHealth::absent;
+        std::string name, trouble;  ///< as last seen
+        /// It does what it is told now. What it did wrong stays said until slots are lit again.
+        void answered(const std::string& called);
+        /// It cannot be found, opened or spoken to.
+        tl::unexpected<Error> lost(const Error& error);
+        tl::unexpected<Error> missing(const Error& error);
+        tl::unexpected<Error> wrong(Error error);
+        void cleared();
+    };
+
     Result<void> began();
+    /// Returns when the frame's light begins.
+    Result<std::chrono::nanoseconds> lit(const VideoFrame& frame);
     Result<void> published(const VideoFrame& frame);
     Result<void> lensSettled(const Waveform& wave, Second triggerAhead);
     Result<void> patternsRun(const dlpc350::PatternSequence& sequence);
@@ -79,7 +97,13 @@ private:
     bool playsLikeLoaded() const;
     Result<void> reached(Dioptre rest);
     Result<void> reachedAgain();
-    void makeSafe();
+    void makeSafe(Waiting waiting);
+    Result<void> madeWhite();
+    Result<void> boardShowsVideo(Waiting waiting);
+    std::string projectorLine() const;
+    std::string lensLine() const;
+    std::string phaseWords() const;
+    std::vector<DeviceLine> deviceLines() const;
     tl::unexpected<Error> lensFailed(const Error& error);
     tl::unexpected<Error> faulted(Error error);
     void wait(Second time);
@@ -106,6 +130,8 @@ private:
     Second settling_;
     std::optional<Loaded> loaded_;
     std::optional<PhaseState> phase_;
+    std::int64_t missingBefore_ = 0;  ///< triggers, when slots came on
+    Known projectorKnown_, displayKnown_, lensesKnown_;
     std::optional<double> temperature_C_;
     std::chrono::nanoseconds lockedSince_{0}, lightBegan_{0};
 };

@@ -1,11 +1,10 @@
 // Whether the devices do what they were told, and what is done when they do not.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <utility>
 
+#include "core/plan/words.h"
 #include "devices/rig/lightcrafter_stage.h"
 #include "devices/simulated/simulated_stage.h"  // the budgets, which are the same
 
@@ -18,32 +17,28 @@ constexpr std::chrono::nanoseconds kTryEvery = 1s;
 // The phase's worst error covers two seconds, at first those in which it was being aligned.
 constexpr std::chrono::nanoseconds kPhaseMemory = 2100ms;
 
-std::string number(const char* format, double value) {
-    std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), format, value);
-    return text.data();
-}
-
 }  // namespace
 
 Result<void> LightCrafterStage::videoWell() {
     const auto mode = rig_.video->mode();
-    if (!mode) return tl::unexpected(mode.error());
+    if (!mode) return displayKnown_.missing(mode.error());
     if (!white_.empty() && mode->size != white_.size())
-        return fail(Fault::device, "The projector's display was switched to another mode; set 912x1140, then TAKE.");
+        return displayKnown_.wrong(
+            {Fault::device, "The projector's display was switched to another mode; set 912x1140, then TAKE."});
     mode_ = *mode;
     return {};
 }
 
 Result<void> LightCrafterStage::projectorWell() {
     const auto seen = projector_->watch();
-    if (!seen) return tl::unexpected(seen.error());
-    if (!seen->troubles.empty()) return fail(Fault::device, seen->troubles.front());
+    if (!seen) return projectorKnown_.lost(seen.error());
+    const auto wrong = [&](const std::string& what) { return projectorKnown_.wrong({Fault::device, what}); };
+    if (!seen->troubles.empty()) return wrong(seen->troubles.front());
     if (running_ && !seen->playing)
-        return fail(Fault::device, "The projector stopped showing patterns by itself; check its video, then TAKE.");
+        return wrong("The projector stopped showing patterns by itself; check its video, then TAKE.");
     if (!running_ && (seen->display != dlpc350::Display::video || seen->run == dlpc350::PatternRun::running))
-        return fail(Fault::device, "The projector shows patterns although it was told plain video; close other "
-                                   "programs that use it.");
+        return wrong("The projector shows patterns although it was told plain video; close other programs that use "
+                     "it.");
     return {};
 }
 
@@ -51,15 +46,16 @@ Result<void> LightCrafterStage::lensWell() {
     const auto condition = lens_->heartbeat();
     if (!condition) return lensFailed(condition.error());
     if (condition->sweeping != told_.has_value())
-        return fail(Fault::device, "The lens does something else than it was told; was its driver restarted?");
+        return lensesKnown_.wrong(
+            {Fault::device, "The lens does something else than it was told; was its driver restarted?"});
     temperature_C_ = condition->temperature_C;
     if (!told_ || !temperature_C_) return {};
     const double planned_C =
         std::clamp(*temperature_C_, told_->temperature_C, told_->temperature_C + std::max(0.0, told_->warming_C));
     if (std::abs(*temperature_C_ - planned_C) <= kTemperatureBudget_C) return {};
-    return fail(Fault::device, "The lens is at " + number("%.1f C", *temperature_C_) +
-                                   ", too far from what its wave was planned for; let it come back, or plan again at "
-                                   "this temperature.");
+    return lensesKnown_.wrong({Fault::device, "The lens is at " + inWords(*temperature_C_, 1) +
+                                                  " C, too far from what its wave was planned for; let it come back, "
+                                                  "or plan again at this temperature."});
 }
 
 Result<void> LightCrafterStage::phaseWell() {
@@ -68,11 +64,11 @@ Result<void> LightCrafterStage::phaseWell() {
     if (!phase) return lensFailed(phase.error());
     phase_ = *phase;
     if (!phase->locked)
-        return fail(Fault::device,
-                    "The lens's sweep has lost the projector's triggers; check the trigger cable, then TAKE.");
+        return lensesKnown_.wrong(
+            {Fault::device, "The lens's sweep has lost the projector's triggers; check the trigger cable, then TAKE."});
     if (rig_.clock.now() - lockedSince_ < kPhaseMemory || phase->most <= kPhaseBudget) return {};
-    return fail(Fault::device, "Slots and lens were " + number("%.2f ms", phase->most.in(1.0_ms)) +
-                                   " apart; check the trigger cable, then TAKE.");
+    return lensesKnown_.wrong({Fault::device, "Slots and lens were " + inWords(phase->most.in(1.0_ms), 2) +
+                                                  " ms apart; check the trigger cable, then TAKE."});
 }
 
 Result<void> LightCrafterStage::confirmed() {
@@ -87,7 +83,7 @@ Result<void> LightCrafterStage::reached(Dioptre rest) {
         auto rested = lens_->safe();
         lens_.reset();
         told_.reset();
-        if (!rested) return rested;
+        if (!rested) return lensesKnown_.lost(rested.error());
     }
     rest_ = rest;
     if (projector_ && lens_ && light_ != Light::unknown) return {};
@@ -105,34 +101,29 @@ Result<void> LightCrafterStage::reachedAgain() {
         if (opened)
             projector_ = *std::move(opened);
         else
-            note(opened.error());
+            note(projectorKnown_.lost(opened.error()).value());
     }
     if (!lens_) {
         auto opened = rig_.openLens(rest_);
         if (opened)
             lens_ = *std::move(opened);
         else
-            note(opened.error());
+            note(lensesKnown_.lost(opened.error()).value());
     }
-    if (const auto mode = rig_.video->mode()) {
-        mode_ = *mode;
-        white_ = uniformFrame(mode->size, 255);
-        videoThere_ = true;
-    } else {
-        note(mode.error());
-    }
-    makeSafe();
+    videoThere_ = true;  // to be tried, whatever it was
+    makeSafe(Waiting::patient);
     if (!first) first = safeTrouble_;
     if (first) return tl::unexpected(*first);
     return {};
 }
 
 Result<void> LightCrafterStage::heartbeat() {
-    if (projector_ && lens_ && videoThere_) {
+    const bool all = projector_ && lens_ && videoThere_;
+    if (all && light_ != Light::unknown) {
         if (const auto well = confirmed(); !well) return faulted(well.error());
         return {};
     }
-    if (!triedAt_ || rig_.clock.now() - *triedAt_ >= kTryEvery) return reachedAgain();
+    if (all || !triedAt_ || rig_.clock.now() - *triedAt_ >= kTryEvery) return reachedAgain();
     return fail(Fault::device, "Projector, display or lenses are not there; connect them, then TAKE.");
 }
 
@@ -143,7 +134,7 @@ void LightCrafterStage::safeLight() noexcept {
         if (!all && maySearch)
             (void)reachedAgain();
         else if (all || !safeTold_)
-            makeSafe();
+            makeSafe(Waiting::brief);
     } catch (const std::exception&) {
         // Out of memory: what the devices do by themselves is left.
         light_ = Light::unknown;
@@ -151,85 +142,70 @@ void LightCrafterStage::safeLight() noexcept {
     }
 }
 
-/// Light comes before the lens, since slots seen through a lens at rest are not what anybody planned; each is told even
-/// if the one before could not be, and once: what does not listen is let go.
-void LightCrafterStage::makeSafe() {
+/// White in the mode the display has now.
+Result<void> LightCrafterStage::madeWhite() {
+    // What does not tell its mode may still show what it showed before.
+    const auto mode = rig_.video->mode();
+    if (!mode && white_.empty()) return displayKnown_.missing(mode.error());
+    if (mode) mode_ = *mode;
+    if (mode && white_.size() != mode->size) white_ = uniformFrame(mode->size, 255);
+    if (const auto white = lit(white_); !white) return tl::unexpected(white.error());
+    displayKnown_.answered(rig_.video->display().connector);
+    return {};
+}
+
+Result<void> LightCrafterStage::boardShowsVideo(Waiting waiting) {
+    if (!projector_) return {};
+    if (const auto told = projector_->showVideo(waiting); !told) return projectorKnown_.lost(told.error());
+    projectorKnown_.answered(projector_->name());
+    return {};
+}
+
+/// Light comes before the lens, since slots seen through a lens at rest are not what anybody planned: white video is
+/// uniform light in patterns too, even if the board does not listen. Only where that cannot be shown is the board asked
+/// first, briefly. Each is told even if the one before could not be; what does not listen is let go.
+void LightCrafterStage::makeSafe(Waiting waiting) {
     safeTrouble_.reset();
     const auto listened = [&](const auto& told) {
         if (!told && !safeTrouble_) safeTrouble_ = told.error();
         return told.has_value();
     };
-    // White video is uniform light in patterns too, so that it holds even if the board does not listen.
-    const bool white = videoThere_ && !white_.empty() && listened(rig_.video->show(white_));
+    const bool white = videoThere_ && listened(madeWhite());
     videoThere_ = white;
-    if (projector_ && !listened(projector_->showVideo())) projector_.reset();
-    const bool slotsMayBeOn = light_ == Light::slotted && !white && !projector_;
-    light_ = white && projector_ ? Light::white : slotsMayBeOn ? Light::slotted : Light::unknown;
-    running_.reset();
+    bool video = !white && boardShowsVideo(Waiting::brief).has_value();
 
     // Lenses that were let go at rest stay there.
-    if (lens_) resting_ = listened(lens_->safe());
-    if (!resting_) lens_.reset();
-    if (std::exchange(lensFailed_, false)) lens_.reset();
+    if (lens_) {
+        const auto rested = lens_->safe();
+        resting_ = listened(rested);
+        if (!resting_) (void)lensesKnown_.lost(rested.error());
+        if (resting_ && !lensFailed_) lensesKnown_.answered(lens_->name());
+    }
+    const bool anew = std::exchange(lensFailed_, false);
+    if (!resting_ || anew) lens_.reset();
     if (resting_) predicted_ = predicted_.told(stillWave(rest_, rest_, 60.0_Hz), rig_.clock.now().count());
     told_.reset();
     phase_.reset();
+
+    if (!video && (white || waiting == Waiting::patient)) video = listened(boardShowsVideo(waiting));
+    if (!video) projector_.reset();
+    const bool slotsMayBeOn = light_ == Light::slotted && !white && !projector_;
+    light_ = white && projector_ ? Light::white : slotsMayBeOn ? Light::slotted : Light::unknown;
+    running_.reset();
     safeTold_ = true;
 }
 
 tl::unexpected<Error> LightCrafterStage::lensFailed(const Error& error) {
     lensFailed_ = true;
-    return tl::unexpected<Error>(error);
+    return lensesKnown_.lost(error);
 }
 
 tl::unexpected<Error> LightCrafterStage::faulted(Error error) {
+    loaded_.reset();  // a bare swap must not light again what has just failed
     safeLight();
     if (light_ != Light::white) error.what += " The projector's light is not known.";
     if (!resting_) error.what += " Where the lens is, is not known.";
     return tl::unexpected<Error>(std::move(error));
-}
-
-StageReport LightCrafterStage::report() const {
-    StageReport report;
-    report.simulated = false;
-    report.light = light_ == Light::slotted ? LightMode::slotted : LightMode::steady;
-    report.lens = !told_ ? LensMode::rest : told_->still() ? LensMode::holding : LensMode::sweeping;
-    report.lensPower = report.low = report.high = rest_;
-    if (told_) {
-        const double now_s = std::chrono::duration<double>(rig_.clock.now()).count();
-        report.low = told_->low;
-        report.high = told_->high;
-        report.lensPower = told_->still() ? told_->low : predicted_.powerAt(std::llround(now_s * 1e9));
-    }
-    report.well = projector_ && lens_ && videoThere_ && light_ != Light::unknown && (told_ || resting_);
-
-    const std::string board = projector_ ? projector_->name() : "LightCrafter 4500";
-    if (!projector_)
-        report.projectorLine =
-            board + ": no answer" + (videoThere_ ? ", it is sent white; " : "; ") + "its light is not known";
-    else if (!videoThere_)
-        report.projectorLine =
-            board + ": its display " + rig_.video->display().connector + " is gone; its light is not known";
-    else if (light_ == Light::slotted)
-        report.projectorLine = board + ": " + std::to_string(running_ ? running_->entries.size() : 0) + " slots at " +
-                               number("%.2f Hz", mode_.refresh.si());
-    else
-        report.projectorLine = board + (light_ == Light::white ? ": steady white" : ": its light is not known");
-
-    report.lensName = lens_ ? lens_->name() : "lenses";
-    if (!lens_)
-        report.lensLine = resting_ ? "lenses: at rest after a fault, to be opened again"
-                                   : "lenses: no answer; where they are is not known";
-    else if (!told_)
-        report.lensLine = report.lensName + number(": at rest at %.2f D", rest_.si());
-    else
-        report.lensLine =
-            report.lensName + number(": told %.2f", report.low.si()) + number(" to %.2f D", report.high.si());
-    if (lens_ && told_ && phase_)
-        report.lensLine +=
-            number("; phase within %.0f us", phase_->most.in(1.0_us)) + number(", %+.0f ppm", phase_->driftPpm);
-    if (lens_ && told_ && !temperature_C_) report.lensLine += "; its temperature is not known";
-    return report;
 }
 
 }  // namespace ilf::devices

@@ -20,6 +20,8 @@ public:
     /// Pulls the cable: what was shown is gone.
     void lose();
     void giveBack() { lost_ = false; }
+    /// As if somebody set another mode.
+    void change(const VideoMode& mode) { mode_ = mode; }
     /// What is scanned out, over and over; empty before the first frame and after a loss.
     const VideoFrame& shown() const { return shown_; }
     std::int64_t framesShown() const { return frames_; }

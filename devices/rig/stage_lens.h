@@ -21,6 +21,7 @@ struct PhaseState {
     Second most;  ///< farthest from its place in the last two seconds
     double driftPpm = 0.0;
     std::int64_t missing = 0;  ///< triggers that did not come, one by one; many in a row are an error
+    Second jitter{};           ///< standard deviation of their place, over the same two seconds
 };
 
 /// Calls come from one thread. After any error the lenses may be anywhere; only `safe` is called then.

@@ -6,12 +6,12 @@ Result<void> LightCrafterProjector::start(const dlpc350::PatternSequence& sequen
     return board_->start(sequence).map([](const auto&) {});
 }
 
-Result<void> LightCrafterProjector::showVideo() {
+Result<void> LightCrafterProjector::showVideo(Waiting waiting) {
+    if (waiting == Waiting::brief) return board_->showVideo(dlpc350::kBrief);
     // After a message that failed, the next one may only drain what it left behind.
-    constexpr int kTries = 3;
-    auto told = board_->showVideo();
-    for (int tries = 1; !told && tries < kTries; ++tries)
-        told = board_->showVideo();
+    auto told = board_->showVideo(dlpc350::kBrief);
+    if (!told) told = board_->showVideo(dlpc350::kBrief);
+    if (!told) told = board_->showVideo();
     return told;
 }
 

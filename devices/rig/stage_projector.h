@@ -7,6 +7,10 @@
 
 namespace ilf::devices {
 
+/// `brief`: one attempt, which a silent device cannot make last longer than about 0.2 s. `patient`: several, some
+/// seconds.
+enum class Waiting { brief, patient };
+
 /// Calls come from one thread. An error of `start` may leave the board dark, with its patterns stopped: `showVideo`
 /// must follow.
 class StageProjector {
@@ -16,7 +20,7 @@ public:
     /// Shows the bit planes of video as patterns, from then on at every frame.
     virtual Result<void> start(const dlpc350::PatternSequence& sequence) = 0;
     /// Plain video, every pixel all the time.
-    virtual Result<void> showVideo() = 0;
+    virtual Result<void> showVideo(Waiting waiting) = 0;
     /// How it is; may be up to a second old.
     virtual Result<dlpc350::Watched> watch() = 0;
     virtual std::string name() const = 0;
@@ -28,9 +32,9 @@ public:
     explicit LightCrafterProjector(std::unique_ptr<dlpc350::LightCrafter> board) : board_(std::move(board)) {}
 
     Result<void> start(const dlpc350::PatternSequence& sequence) override;
-    Result<void> showVideo() override;
+    Result<void> showVideo(Waiting waiting) override;
     Result<dlpc350::Watched> watch() override { return board_->watch(); }
-    std::string name() const override { return board_->name(); }
+    std::string name() const override { return "LightCrafter 4500 at USB " + board_->identity().path; }
 
 private:
     std::unique_ptr<dlpc350::LightCrafter> board_;

@@ -40,7 +40,7 @@ Result<PhaseState> Usb1208Lens::follow() {
     const auto step = sync_->step();
     if (!step) return tl::unexpected(step.error());
     const PhaseReport& phase = step->phase;
-    return PhaseState{phase.locked && step->placeKnown, phase.most, phase.driftPpm, phase.missing};
+    return PhaseState{phase.locked && step->placeKnown, phase.most, phase.driftPpm, phase.missing, phase.jitter};
 }
 
 Result<LensCondition> Usb1208Lens::heartbeat() {

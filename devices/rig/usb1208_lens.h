@@ -21,7 +21,7 @@ public:
     Result<LensCondition> heartbeat() override;
     Result<void> safe() override;
     Dioptre rest() const override { return rest_; }
-    std::string name() const override { return "lenses on a USB-1208FS-Plus"; }
+    std::string name() const override { return "lenses on the USB-1208FS-Plus at USB " + link_->identity().path; }
 
 private:
     Usb1208Lens(std::shared_ptr<UsbLink> link, std::unique_ptr<LensOutput> output, Dioptre rest, Clock clock,

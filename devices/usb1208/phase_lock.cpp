@@ -154,13 +154,18 @@ PhaseReport PhaseLock::report() const {
     PhaseReport report = counts_;
     report.locked = locked_;
     report.driftPpm = perSweep_ / setup_.samplesPerSweep * 1e6;
-    double squares = 0.0, most = 0.0;
+    double sum = 0.0, squares = 0.0, most = 0.0;
     for (const double error : errors_) {
+        sum += error;
         squares += error * error;
         most = std::max(most, std::abs(error));
     }
     const Second sample = Second::fromSi(1.0 / usb1208::kSampleRateHz);
-    if (!errors_.empty()) report.rms = std::sqrt(squares / static_cast<double>(errors_.size())) * sample;
+    if (!errors_.empty()) {
+        const double count = static_cast<double>(errors_.size()), mean = sum / count;
+        report.rms = std::sqrt(squares / count) * sample;
+        report.jitter = std::sqrt(std::max(0.0, squares / count - mean * mean)) * sample;
+    }
     report.most = most * sample;
     return report;
 }

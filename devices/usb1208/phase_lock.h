@@ -34,6 +34,7 @@ struct PhaseReport {
     bool locked = false;
     double driftPpm = 0.0;     ///< the projector's clock against the DAC's; above 0: the projector is slower
     Second rms, most;          ///< of the trigger's place in the sweep against its target, over the last two seconds
+    Second jitter;             ///< standard deviation of the same
     std::int64_t edges = 0;    ///< taken
     std::int64_t missing = 0;  ///< triggers that should have come and did not
     std::int64_t strays = 0;   ///< edges where none could be

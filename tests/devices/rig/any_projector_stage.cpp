@@ -81,6 +81,39 @@ TEST_CASE("any projector: safe light is white; a lost display is said, and white
     REQUIRE(stage->heartbeat());
     CHECK(room.video->shown() == uniformFrame({200, 130}, 255));
     CHECK(stage->report().well);
+    CHECK_FALSE(stage->swap());  // what was loaded before the loss is not lit by itself
+}
+
+TEST_CASE("any projector: it leaves white light behind") {
+    Rehearsal room;
+    auto stage = room.stage();
+    REQUIRE(stage->load(halves()));
+    REQUIRE(stage->swap());
+    stage.reset();
+    CHECK(room.video->shown() == uniformFrame({200, 130}, 255));
+}
+
+TEST_CASE("any projector: one line for its display, whatever happens to it") {
+    Rehearsal room;
+    const auto stage = room.stage({0});
+    const auto line = [&] {
+        const auto lines = stage->report().devices;
+        REQUIRE(lines.size() == 1);
+        return lines.front();
+    };
+    const std::string name = "projector on HDMI-2";
+    CHECK(line() == DeviceLine{"display", DeviceHealth::absent, name, "It was not looked for yet."});
+    REQUIRE(stage->heartbeat());
+    CHECK(line() ==
+          DeviceLine{"display", DeviceHealth::well, name, "It shows steady white light; TAKE shows the rehearsal."});
+    REQUIRE(stage->load(halves()));
+    REQUIRE(stage->swap());
+    CHECK(line() ==
+          DeviceLine{"display", DeviceHealth::well, name, "It shows slot 0, not in time: nothing is blurred."});
+    room.video->lose();
+    REQUIRE_FALSE(stage->heartbeat());
+    CHECK(line() == DeviceLine{"display", DeviceHealth::unplugged, name,
+                               "The projector's display (HDMI-2) is gone. Check its cable and its power."});
 }
 
 }  // namespace ilf::devices

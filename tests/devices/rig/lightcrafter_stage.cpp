@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <new>
 
 #include "devices/simulated/simulated_stage.h"
 #include "tests/devices/rig/scripted_rig.h"
@@ -36,7 +37,7 @@ std::string faultOf(ScriptedRig& rig) {
 TEST_CASE("lightcrafter stage: a start is white video, the sweep, the patterns, then the program's frame") {
     ScriptedRig rig;
     REQUIRE(rig.played(kFirst));
-    CHECK(rig.orders() == Calls{"lens: opened at 0.0", "video: white", "board: video", "lens: safe", "lens: play",
+    CHECK(rig.orders() == Calls{"lens: opened at 0.0", "video: white", "lens: safe", "board: video", "lens: play",
                                 "board: start 16", "video: frame"});
     CHECK(rig.room.slotted());
     CHECK(rig.stage.report().light == LightMode::slotted);
@@ -44,7 +45,7 @@ TEST_CASE("lightcrafter stage: a start is white video, the sweep, the patterns, 
     CHECK(rig.room.violations == Calls{});
 
     rig.stage.safeLight();
-    CHECK(rig.orders() == Calls{"video: white", "board: video", "lens: safe"});
+    CHECK(rig.orders() == Calls{"video: white", "lens: safe", "board: video"});
     CHECK(safe(rig));
     CHECK(rig.stage.report().projectorLine == "board: steady white");
     CHECK(rig.stage.report().lens == LensMode::rest);
@@ -101,8 +102,8 @@ TEST_CASE("lightcrafter stage: a wearer who rests elsewhere gets lenses that res
     auto program = test::program(1);
     program.waveform = idealSine(1.5_D, 1.5_D, 3.0_D, 60.0_Hz, 0.0_s);
     REQUIRE(rig.played(program));
-    CHECK(rig.orders() == Calls{"video: white", "lens: safe", "lens: opened at 1.5", "video: white", "board: video",
-                                "lens: safe", "lens: play", "board: start 16", "video: frame"});
+    CHECK(rig.orders() == Calls{"video: white", "lens: safe", "lens: opened at 1.5", "video: white", "lens: safe",
+                                "board: video", "lens: play", "board: start 16", "video: frame"});
     rig.stage.safeLight();
     CHECK(rig.stage.report().lensPower == 1.5_D);
     CHECK(rig.room.violations == Calls{});
@@ -191,6 +192,16 @@ TEST_CASE("lightcrafter stage: every fault of a show ends in safe light, with on
         CHECK(rig.stage.report().well);
         CHECK_FALSE(rig.room.patterns);
     }
+    SUBCASE("the display is switched to another mode: it is white in that mode, at once") {
+        ScriptedRig rig;
+        show(rig);
+        rig.video->change({{16, 8}, 60.0_Hz});
+        CHECK(faultOf(rig) == "The projector's display was switched to another mode; set 912x1140, then TAKE.");
+        CHECK(safe(rig));
+        CHECK(rig.video->shown() == uniformFrame({16, 8}, 255));
+        CHECK(rig.stage.report().projectorLine == "board: steady white");
+        REQUIRE(rig.stage.heartbeat());
+    }
     SUBCASE("the lenses are unplugged") {
         ScriptedRig rig;
         show(rig);
@@ -199,6 +210,42 @@ TEST_CASE("lightcrafter stage: every fault of a show ends in safe light, with on
         CHECK(rig.room.whiteShown);
         CHECK(rig.stage.report().lensLine == "lenses: no answer; where they are is not known");
     }
+}
+
+TEST_CASE("lightcrafter stage: after a fault a bare swap lights nothing; a new load does") {
+    ScriptedRig rig;
+    REQUIRE(rig.played(kFirst));
+    rig.room.now += 3s;
+    rig.room.phaseError = 230.0_us;
+    REQUIRE_FALSE(rig.stage.heartbeat());
+    rig.room.phaseError = 0.0_us;
+    const auto swapped = rig.stage.swap();
+    REQUIRE_FALSE(swapped);
+    CHECK(swapped.error().what == "Nothing is loaded that could be put on show.");
+    CHECK_FALSE(rig.room.slotted());
+    CHECK(rig.played(kFirst));
+
+    // A swap that failed has used its program up, too.
+    rig.room.failsAt = [](const std::string& call) { return call == "video: frame"; };
+    REQUIRE_FALSE(rig.played(test::program(2)));
+    rig.room.failsAt = {};
+    CHECK_FALSE(rig.stage.swap());
+    CHECK(safe(rig));
+}
+
+TEST_CASE("lightcrafter stage: light that came to be unknown is made white by the next heartbeat") {
+    ScriptedRig rig;
+    REQUIRE(rig.played(kFirst));
+    int left = 1;
+    rig.room.failsAt = [&](const std::string& call) {
+        if (call == "video: white" && left-- > 0) throw std::bad_alloc();
+        return false;
+    };
+    rig.stage.safeLight();
+    CHECK(rig.stage.report().projectorLine == "board: its light is not known");
+    REQUIRE(rig.stage.heartbeat());
+    CHECK(safe(rig));
+    CHECK(rig.stage.report().well);
 }
 
 TEST_CASE("lightcrafter stage: what cannot be locked or does not come at the sweep's rate never gets slots") {

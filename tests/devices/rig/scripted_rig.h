@@ -19,8 +19,10 @@ struct ScriptedRoom {
     bool failsAfterEffect = false;  ///< the order got through and its answer is lost
     bool boardGone = false, lensGone = false;
     bool locks = true;
-    double temperature_C = 30.0;
-    Second phaseError;
+    std::optional<double> temperature_C = 30.0;
+    std::optional<Error> boardRefusal;  ///< why it cannot be opened
+    Second phaseError, jitter;
+    std::int64_t missing = 0;
     std::vector<std::string> troubles;
 
     std::chrono::nanoseconds now{std::chrono::seconds(10)};
@@ -89,7 +91,7 @@ public:
             room_.patterns = true;
         });
     }
-    Result<void> showVideo() override {
+    Result<void> showVideo(devices::Waiting) override {
         auto done = told("board: video", [&] { room_.patterns = false; });
         room_.showVideoFailed = !done;
         return done;
@@ -141,7 +143,7 @@ public:
         auto done = told("lens: follow", [] {});
         if (!done) return tl::unexpected(done.error());
         if (!room_.patterns) return fail(Fault::device, "The projector's trigger is lost.");
-        return devices::PhaseState{room_.locks && ++follows_ > 3, room_.phaseError, 12.0, 0};
+        return devices::PhaseState{room_.locks && ++follows_ > 3, room_.phaseError, 12.0, room_.missing, room_.jitter};
     }
     Result<devices::LensCondition> heartbeat() override {
         auto done = told("lens: heartbeat", [] {});
@@ -183,6 +185,7 @@ struct ScriptedRig {
         devices::LightCrafterRig rig;
         rig.openProjector = [this]() -> Result<std::unique_ptr<devices::StageProjector>> {
             if (room.boardGone) return fail(Fault::notFound, "There is no board.");
+            if (room.boardRefusal) return tl::unexpected(*room.boardRefusal);
             return std::make_unique<ScriptedBoard>(room);
         };
         rig.openLens = [this](Dioptre rest) -> Result<std::unique_ptr<devices::StageLens>> {
