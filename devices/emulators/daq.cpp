@@ -77,6 +77,15 @@ void EmulatedDaq::setOutputs(std::int64_t time_ns) {
     now_.time_ns = time_ns;
     record_.push_back(now_);
     if (record_.size() > kForgets) record_.pop_front();
+    constexpr std::size_t kPast = std::size_t(1) << 13U;
+    past_.push_back(now_);
+    if (past_.size() > kPast) past_.pop_front();
+}
+
+OutputSample EmulatedDaq::outputsAt(std::int64_t time_ns) const {
+    const auto later = std::ranges::upper_bound(past_, time_ns, {}, &OutputSample::time_ns);
+    if (later != past_.begin()) return *std::prev(later);
+    return past_.empty() ? now_ : past_.front();
 }
 
 UsbTransfer EmulatedDaq::out(std::uint8_t endpoint, std::span<const std::uint8_t> data, std::int64_t now_ns) {

@@ -63,6 +63,8 @@ public:
     /// Every change of the outputs by `now_ns`, in order; the last 2^18 where nobody asked for them in time.
     std::vector<OutputSample> takeOutput(std::int64_t now_ns);
     OutputSample outputs(std::int64_t now_ns);
+    /// What the outputs held at a time not longer ago than 2^13 changes; what they hold now for a later one.
+    OutputSample outputsAt(std::int64_t time_ns) const;
     static double volts(std::uint16_t code);
     /// What the amplifier drives through a coil, in mA; 0 while its relay is open.
     double current_mA(const OutputSample& sample, int channel) const;
@@ -104,7 +106,7 @@ private:
     bool underrun_ = false, overrun_ = false;
     bool outHalted_ = false, inHalted_ = false;
     OutputSample now_;
-    std::deque<OutputSample> record_;
+    std::deque<OutputSample> record_, past_;  ///< not taken yet; the last ones, taken or not
     int blinks_ = 0;
     std::optional<std::int64_t> backOnBus_ns_;
 };

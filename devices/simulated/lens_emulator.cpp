@@ -114,6 +114,7 @@ double LensEmulator::tablePower(double current_A) const { return tableAt(current
 
 void LensEmulator::play(const Harmonics& drive, Hertz rate, std::optional<double> asAt_C) {
     held_D_.reset();
+    driven_A_.reset();
     asAt_C_ = asAt_C && std::isfinite(*asAt_C) ? asAt_C : std::nullopt;
     trimmedFor_C_ = std::numeric_limits<double>::infinity();
     drive_ = isFinite(drive) ? drive : Harmonics{};
@@ -127,11 +128,19 @@ void LensEmulator::hold(Dioptre power) {
     const double wanted = isFinite(power) ? std::clamp(power.si(), -kStop_D, kStop_D) : 0.0;
     if (held_D_ == wanted) return;
     held_D_ = wanted;
+    driven_A_.reset();
     heldCurrent_A_ = currentFor(wanted);
     heldFor_C_ = coil_C_;
     tick_ = -1;
     inTick_s_ = 0.0;
     nextVoltage();
+}
+
+void LensEmulator::drive(Ampere current) {
+    held_D_.reset();
+    asAt_C_.reset();
+    driven_A_ = isFinite(current) ? std::clamp(current.si(), -p_.clip_A, p_.clip_A) : 0.0;
+    target_A_ = *driven_A_;
 }
 
 void LensEmulator::setAmbient(double ambient_C) { ambient_C_ = ambientWithin(ambient_C, ambient_C_); }
@@ -230,6 +239,7 @@ void LensEmulator::step(const Step& step) {
 void LensEmulator::advance(Second time) {
     double left = time.si() + owed_s_;
     if (!(time.si() > 0.0)) return;
+    if (driven_A_) return advanceDriven(left);
     if (left > kLongest_s) {
         skip(left - kPlayedOfLonger_s);
         left = kPlayedOfLonger_s;
@@ -250,6 +260,35 @@ void LensEmulator::advance(Second time) {
     owed_s_ = left;
 }
 
+/// Current and membrane are where they stay.
+bool LensEmulator::still() const {
+    constexpr double kStill_D = 1e-7, kStill_A = 1e-9;
+    const double v = std::abs(first_.v) + std::abs(second_.v);
+    return std::abs(current_A_ - target_A_) < kStill_A && std::abs(first_.x - table_D_) < kStill_D &&
+           std::abs(second_.x - table_D_) < kStill_D && v < kStill_D * std::sqrt(first_.square);
+}
+
+void LensEmulator::advanceDriven(double time) {
+    owed_s_ = 0.0;
+    const double left = std::min(time, kLongest_s);
+    // A lens at rest costs nothing but its warmth: the membrane follows the table, which the coil drifts by 1e-3 D a
+    // second at most.
+    const double end = ambient_C_ + p_.warming_C_per_W * p_.coil_ohm * meanSquareCurrent();
+    if (time > left) coil_C_ = end + (coil_C_ - end) * std::exp(-(time - left) / p_.warming_s);
+    const int steps = static_cast<int>(std::ceil(left / p_.step_s));
+    const Step equal = stepOf(left / std::max(steps, 1));
+    for (int i = 0; i < steps; ++i) {
+        if (still()) {
+            coil_C_ = end + (coil_C_ - end) * std::exp(-(steps - i) * equal.length / p_.warming_s);
+            table_D_ = tablePower(current_A_);
+            first_.x = second_.x = table_D_;
+            first_.v = second_.v = 0.0;
+            return;
+        }
+        step(equal);
+    }
+}
+
 void LensEmulator::skip(double time) {
     const double gap = std::min(time, 1e7);  // months: nobody knows the phase after that
     const double end = ambient_C_ + p_.warming_C_per_W * p_.coil_ohm * meanSquareCurrent();
@@ -263,6 +302,7 @@ void LensEmulator::skip(double time) {
 
 double LensEmulator::meanSquareCurrent() const {
     if (held_D_) return heldCurrent_A_ * heldCurrent_A_;
+    if (driven_A_) return *driven_A_ * *driven_A_;
     constexpr int kPoints = 256;
     double sum = 0.0;
     for (int i = 0; i < kPoints; ++i) {

@@ -50,6 +50,9 @@ public:
     /// Holds the lens at a power as its driver's own calibration knows how (static, temperature-compensated). A lens
     /// with a loop is led there in a swing that dies out within 0.1 s, so that it forgets where it came from.
     void hold(Dioptre power);
+    /// From now on the amplifier is told this current; as it is told sample by sample by a DAC that is not part of this
+    /// model. Beyond the clip it clips; not finite is none.
+    void drive(Ampere current);
     void setAmbient(double ambient_C);
     /// Longer than a second: the lens plays the last half second, and only its warmth knows of the rest.
     void advance(Second time);
@@ -81,6 +84,8 @@ private:
     double currentFor(double power) const;
     double meanSquareCurrent() const;
     void skip(double time);
+    void advanceDriven(double time);
+    bool still() const;
 
     LensParameters p_;
     Step usual_;
@@ -88,7 +93,8 @@ private:
     Harmonics drive_;
     double rate_Hz_ = 0.0;
     std::optional<double> held_D_;
-    std::optional<double> asAt_C_;  ///< trimmed for a coil this warm
+    std::optional<double> driven_A_;  ///< told from outside
+    std::optional<double> asAt_C_;    ///< trimmed for a coil this warm
     double trim_V_ = 0.0, swing_ = 1.0,
            trimmedFor_C_ = 0.0;                     ///< the last: the coil temperature they were worked out for
     double heldCurrent_A_ = 0.0, heldFor_C_ = 0.0;  ///< the coil temperature the current was worked out for
