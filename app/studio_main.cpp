@@ -27,13 +27,25 @@ constexpr const char* kFooter =
 
 const std::vector<std::string> kSimulatedLenses{"slow", "datasheet", "lively", "clean", "dirty", "ideal"};
 
-void addLensChoice(CLI::App& command, LensChoice& choice) {
+/// Of the window as well.
+void addRig(CLI::App& command, RigChoice& choice) {
+    command.add_option("--rig", choice.rig,
+                       "Instead of the document's: simulated, emulated (drivers of real devices over emulated cables) "
+                       "or a rig's file");
+    command.add_option("--bits", choice.bits, "Of a slot's picture, with as many slots as the projector then shows")
+        ->check(CLI::Range(1, 8));
+    command
+        .add_option("--simulated-lens", choice.simulated,
+                    "Of a core that has to be started: slow, datasheet, lively, clean, dirty, ideal")
+        ->check(CLI::IsMember(kSimulatedLenses));
+}
+
+void addRigChoice(CLI::App& command, RigChoice& choice) {
+    addRig(command, choice);
     command
         .add_option("--wave", choice.waves, "Instead of the rig's: continuous, shaped, slot-aware, paper, ideal-sine")
         ->check(CLI::IsMember({"continuous", "shaped", "slot-aware", "paper", "ideal-sine"}));
     command.add_option("--lens", choice.file, "Calibration of the lens, instead of the rig's");
-    command.add_option("--simulated-lens", choice.simulated, "slow, datasheet, lively, clean, dirty or ideal")
-        ->check(CLI::IsMember(kSimulatedLenses));
 }
 
 void addPlan(CLI::App& app, PlanOptions& options) {
@@ -44,18 +56,26 @@ void addPlan(CLI::App& app, PlanOptions& options) {
     plan->add_option("--alpha", options.alpha_D, "Added to P_s, in dioptres");
     plan->add_option("--coc", options.coc, "Circle of confusion: 1arcmin, dof, landolt, or metres on the retina");
     plan->add_flag("--json", options.json, "As JSON");
-    addLensChoice(*plan, options.lens);
+    addRigChoice(*plan, options.rig);
 }
 
 void addRun(CLI::App& app, RunOptions& options) {
-    auto* run = app.add_subcommand("run", "Plan, compile and play on a simulated core, then read back what it showed");
+    auto* run = app.add_subcommand("run", "Plan, compile and play on a core of its own, then read back what it showed");
+    run->footer(
+        "With --rig emulated, intended light and lens are compared with what the cables brought, pixel by pixel: the\n"
+        "exit code is 3 where they differ (what the rig's bits leave is stated and no difference). Mishaps:\n"
+        "projector or lenses: nack, silence, stall, unplug, wrong-mode, underrun, over-temperature,\n"
+        "dropped-trigger, clock-drift, stuck-frame, plug, none; display: unplug, plug.");
     run->add_option("FILE", options.file, "Project, picture or video")->required();
     run->add_option("--seconds", options.seconds, "How long to play")
         ->check(CLI::Range(0.0, 86400.0))
         ->capture_default_str();
     run->add_option("--report", options.report, "JSON report to write");
     run->add_option("--pictures", options.pictures, "Directory for the views and slot images");
-    addLensChoice(*run, options.lens);
+    run->add_option("--mishap", options.mishaps,
+                    "DEVICE:KIND[:AFTER[:TIMES[:AMOUNT]]], to the emulated rig once the program is on show; repeatable")
+        ->allow_extra_args(false);
+    addRigChoice(*run, options.rig);
 }
 
 void addOptics(CLI::App& app, OpticsEvalOptions& eval, OpticsTableOptions& table, OpticsPlotOptions& plot) {
@@ -179,7 +199,7 @@ void addSeams(CLI::App& app, SeamsOptions& options) {
     seams->add_option("--experiment", options.experiment,
                       "The paper's experiment on this folder's textures, without FILE");
     seams->add_option("-o,--out", options.out, "Folder for the experiment's pictures and seams.csv");
-    addLensChoice(*seams, options.lens);
+    addRigChoice(*seams, options.rig);
 }
 
 void addDoctor(CLI::App& app, DoctorOptions& options) {
@@ -203,7 +223,7 @@ void addDoctor(CLI::App& app, DoctorOptions& options) {
     doctor->add_option("--root", options.root, "Another system's files, for tests")->group("");
 }
 
-void addStudio(CLI::App& app, StudioOptions& options, std::string& lens) {
+void addStudio(CLI::App& app, StudioOptions& options) {
     app.add_option("FILE", options.file, "Project, picture or video to open");
     app.add_option("--scale", options.scale, "Size of the window's text and controls (0: the display's own)")
         ->check(CLI::Range(0.0, 4.0));
@@ -213,9 +233,7 @@ void addStudio(CLI::App& app, StudioOptions& options, std::string& lens) {
     // For measurements (tests/bench/frame_times.sh), not for operators.
     app.add_option("--frame-times", options.frameTimes, "Write what each frame took as JSON when the window closes")
         ->group("");
-    app.add_option("--simulated-lens", lens,
-                   "Of a core that has to be started: slow, datasheet, lively, clean, dirty, ideal")
-        ->check(CLI::IsMember(kSimulatedLenses));
+    addRig(app, options.rig);
     app.add_option("--view", options.view, "Tab to start with: scene, perceived, light or compare")
         ->check(CLI::IsMember({"scene", "perceived", "light", "compare"}));
 }
@@ -242,10 +260,9 @@ int main(int argc, char** argv) {
     LensOptions lens;
     EvaluateCommandOptions evaluation;
     std::string validated;
-    std::string studioLens;
-    addStudio(app, studio, studioLens);
+    addStudio(app, studio);
     addPlan(app, plan);
-    addLensChoice(addRender(app, render), render.lens);
+    addRigChoice(addRender(app, render), render.rig);
     addRun(app, run);
     addOptics(app, opticsEval, opticsTable, opticsPlot);
     addEvaluate(app, evaluation);
@@ -254,11 +271,11 @@ int main(int argc, char** argv) {
     addLens(app, lens);
     DoctorOptions doctor;
     addDoctor(app, doctor);
-    LensChoice validatedLens;
+    RigChoice validatedRig;
     auto* validate =
         app.add_subcommand("validate", "Opens, plans and compiles a project and says what is wrong with it");
     validate->add_option("FILE", validated, "Project, picture or video")->required();
-    addLensChoice(*validate, validatedLens);
+    addRigChoice(*validate, validatedRig);
 
     try {
         app.parse(argc, argv);
@@ -285,8 +302,7 @@ int main(int argc, char** argv) {
         }
         if (app.got_subcommand("lens")) return runLens(*app.get_subcommand("lens"), lens);
         if (app.got_subcommand("evaluate")) return evaluateCommand(evaluation);
-        if (app.got_subcommand("validate")) return validateCommand(validated, validatedLens);
-        if (!studioLens.empty()) studio.lens = *ilf::devices::simulatedLensFromWord(studioLens);
+        if (app.got_subcommand("validate")) return validateCommand(validated, validatedRig);
         return runStudio(studio);
     } catch (const std::exception& e) {  // a library threw where nobody expected it
         std::cerr << "illuminatedfocus: stopped by an unexpected failure: " << e.what() << '\n';

@@ -68,7 +68,7 @@ Result<Document> documentOf(const PlanOptions& options) {
         if (!confusion) return tl::unexpected(confusion.error());
         document.wearer.confusion = *confusion;
     }
-    auto rig = withOptions(document.rig, options.lens);
+    auto rig = withOptions(document.rig, options.rig);
     if (!rig) return tl::unexpected(rig.error());
     document.rig = *std::move(rig);
     if (options.alpha_D) return edited(std::move(document), SetAlpha{Dioptre::fromSi(*options.alpha_D)});
@@ -91,7 +91,7 @@ int planCommand(const PlanOptions& options) {
         return refuse({Fault::outOfRange, "give either a FILE or objects: --object NAME,DISTANCE_M,focus|blur."},
                       kUsage);
     }
-    const auto lens = simulatedLens(options.lens);
+    const auto lens = simulatedLens(options.rig);
     if (!lens) return refuse(lens.error(), kUsage);
     LensPlanner planner(*lens);
     const auto refuseInput = [&](const Error& error) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/lens/lens_choice.h"
+#include "app/lens/rig_choice.h"
 #include "core/plan/plan.h"
 
 namespace ilf::app {
@@ -15,7 +15,7 @@ struct PlanOptions {
     std::vector<std::string> objects;  ///< "NAME,DISTANCE_M,focus|blur|neutral"
     std::optional<double> alpha_D;
     std::string coc;  ///< 1arcmin, dof, landolt, or metres; empty: the project's, or 1arcmin
-    LensChoice lens;
+    RigChoice rig;
     bool json = false;
 };
 

@@ -24,14 +24,14 @@ private:
 
 }  // namespace
 
-Result<Prepared> prepared(const std::string& file, const LensChoice& lens) {
+Result<Prepared> prepared(const std::string& file, const RigChoice& rig) {
     Prepared result;
     Stopwatch watch;
     auto opened = openAny(file);
     if (!opened) return tl::unexpected(opened.error());
     result.opened = *std::move(opened);
     result.open_ms = watch.lap();
-    const auto planned = plannedFor(result.opened.document, lens);
+    const auto planned = plannedFor(result.opened.document, rig);
     if (!planned) return tl::unexpected(planned.error());
     result.plan_ms = watch.lap();
     auto compiled = compile(result.opened.document, *planned);

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/lens/lens_choice.h"
+#include "app/lens/rig_choice.h"
 #include "app/open.h"
 #include "core/compile/compile.h"
 
@@ -15,7 +15,7 @@ struct Prepared {
     double open_ms = 0.0, plan_ms = 0.0, compile_ms = 0.0;
 };
 
-Result<Prepared> prepared(const std::string& file, const LensChoice& lens = {});
+Result<Prepared> prepared(const std::string& file, const RigChoice& rig = {});
 
 /// Writes "illuminatedfocus COMMAND: sentence" to standard error and gives the exit code.
 int refused(const char* command, const Error& error);

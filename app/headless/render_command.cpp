@@ -63,7 +63,7 @@ private:
             progress_.show((static_cast<double>(index) + part) / static_cast<double>(options_.files.size()), doing);
         };
         step(0.0, file);
-        const auto prepared = app::prepared(file, options_.lens);
+        const auto prepared = app::prepared(file, options_.rig);
         if (!prepared) return failure(file, prepared.error(), exitCode(prepared.error()));
         const Compiled& compiled = prepared->compiled;
         const auto shots = shotsOf(options_, static_cast<int>(compiled.program.imageOfSlot.size()));

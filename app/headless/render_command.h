@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/lens/lens_choice.h"
+#include "app/lens/rig_choice.h"
 
 namespace CLI {
 class App;
@@ -26,7 +26,7 @@ struct RenderOptions {
     int samples = 256;       ///< rays a pixel, of the reference
     double white = 0.0;      ///< difference that an error map shows white; 0: chosen
     bool half = false;       ///< EXR in 16 bits
-    LensChoice lens;
+    RigChoice rig;
     std::string out;                   ///< one file; its ending chooses the format
     std::string outDir;                ///< or a folder for all of them,
     std::vector<std::string> formats;  ///< in each of png, tif, exr; empty: png

@@ -6,17 +6,18 @@
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "app/exit_code.h"
+#include "app/headless/own_core.h"
 #include "app/headless/plan_command.h"
 #include "app/headless/prepare.h"
-#include "app/headless/simulated_core.h"
+#include "app/headless/run_pictures.h"
+#include "app/headless/run_report.h"
 #include "app/pictures_of.h"
-#include "core/base/srgb.h"
-#include "core/perceived/view_engine.h"
-#include "ilf/version.h"
-#include "projects/pictures.h"
+#include "app/rigs.h"
+#include "app/words.h"
 
 namespace ilf::app {
 namespace {
@@ -24,63 +25,13 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// What a view took, and why the rest of it was not worked out.
-json countersOf(Eye eye, const PerceivedView& view) {
-    const ViewCounters& c = view.counters;
-    return {{"eye", eye == Eye::left ? "left" : "right"},
-            {"rung", std::string(word(view.rung))},
-            {"tiles", c.tiles},
-            {"computed", c.computed},
-            {"skipped", {{"unchanged", c.unchanged}, {"plain", c.plain}, {"dark", c.dark}}},
-            {"lights", c.lights},
-            {"dark_levels", c.darkLights},
-            {"surfaces", {{"blurred", c.blurred}, {"sharp", c.sharp}, {"unlit", c.unlit}, {"hidden", c.hidden}}},
-            {"conflict_tiles", c.conflicts},
-            {"times_ms", {{"geometry", c.geometry_ms}, {"light", c.light_ms}, {"tiles", c.tiles_ms}}}};
-}
+/// The slowest fault to be noticed: a lens that drifts out of phase.
+constexpr std::chrono::seconds kNoticed{12};
+/// After this the newest whole sweep is one of the program sent last.
+constexpr std::chrono::milliseconds kWholeSweeps{150};
 
-struct WrittenPictures {
-    std::vector<std::string> names;
-    json views = json::array();  ///< counters of each perceived one
-};
-
-/// Every view and every distinct slot image, as PNG.
-Result<WrittenPictures> writePictures(const Compiled& compiled, const fs::path& directory) {
-    std::error_code error;
-    fs::create_directories(directory, error);
-    if (error) {
-        return fail(Fault::cannotWrite,
-                    "The directory " + directory.string() + " can not be made: " + error.message() + ".");
-    }
-    WrittenPictures all;
-    const auto write = [&](const std::string& name, const Image<std::uint8_t>& picture) -> Result<void> {
-        if (auto written = projects::writePng(directory / name, picture); !written) return written;
-        all.names.push_back((directory / name).string());
-        return {};
-    };
-    const Document& document = compiled.document;
-    if (auto r = write("camera.png", scenePicture(document)); !r) return tl::unexpected(r.error());
-    if (auto r = write("overlay.png", overlayPicture(document)); !r) return tl::unexpected(r.error());
-    for (const Eye eye : {Eye::left, Eye::right}) {
-        ViewRequest request;
-        request.eye = eye;
-        const auto view = ViewEngine().see(document, compiled.plan, compiled.program, request);
-        if (!view) return tl::unexpected(view.error());
-        all.views.push_back(countersOf(eye, *view));
-        const auto* name = eye == Eye::left ? "perceived-left.png" : "perceived-right.png";
-        if (auto r = write(name, toSrgb8(view->radiance())); !r) return tl::unexpected(r.error());
-    }
-    for (std::size_t slot = 0; slot < compiled.program.imageOfSlot.size(); ++slot) {
-        const auto number = (slot < 10 ? "0" : "") + std::to_string(slot);
-        if (auto r = write("slot-" + number + ".png", slotPicture(compiled.program, static_cast<int>(slot))); !r) {
-            return tl::unexpected(r.error());
-        }
-    }
-    return all;
-}
-
-/// Pixels of the slot images the devices received that differ from the program's, slot by slot.
-Result<json> receivedAgainstIntended(SimulatedCore& core, const Program& program) {
+/// Pixels of the slot images the simulated devices hold that differ from the program's, slot by slot.
+Result<json> receivedAgainstIntended(OwnCore& core, const Program& program) {
     json slots = json::array();
     for (int slot = 0; slot < static_cast<int>(program.imageOfSlot.size()); ++slot) {
         const auto received = core.slot(slot);
@@ -100,86 +51,185 @@ Result<json> receivedAgainstIntended(SimulatedCore& core, const Program& program
     return slots;
 }
 
-json reportOf(const Prepared& project, const RunOptions& options, const Played& played) {
-    const CompileCounters& counters = project.compiled.counters;
-    return {
-        {"program", std::string("illuminatedfocus ") + ilf::kVersion},
-        {"file", options.file},
-        {"provenance", "simulated lens and projector"},
-        {"seconds", options.seconds},
-        {"plan", json::parse(planJson(project.compiled.plan, project.compiled.document))},
-        {"times_ms",
-         {{"open", project.open_ms},
-          {"plan", project.plan_ms},
-          {"compile", project.compile_ms},
-          {"sent_to_swapped", played.sentToSwapped_ms}}},
-        {"tiles",
-         {{"all", counters.tiles},
-          {"computed", counters.computed},
-          {"unchanged", counters.unchanged},
-          {"uniform", counters.uniform},
-          {"seam", counters.seamTiles}}},
-        {"played",
-         {{"content_hash_sent", std::to_string(contentHash(project.compiled.program))},
-          {"content_hash_shown", std::to_string(played.state.hashShown)},
-          {"light", played.state.light == devices::LightMode::slotted ? "slotted" : "steady"},
-          {"sweeps", played.sweeps},
-          {"swaps", played.state.swaps},
-          {"refusals", played.state.refusals},
-          {"lens_low_D", played.state.waveform.low.si()},
-          {"lens_high_D", played.state.waveform.high.si()},
-          {"lens_unsettled_D", played.state.lensError.si()},
-          {"lens_off_its_wave_rms_D", played.state.offWave.si()},
-          {"lens_temperature_C", played.state.lensTemperature_C},
-          {"triggers_lost", played.state.triggersLost},
-          {"rate_changes_under_slotted_light", played.state.rateChangesUnderSlottedLight}}},
+/// "DEVICE:KIND[:AFTER[:TIMES[:AMOUNT]]]"
+Result<devices::RigMishap> mishapFrom(const std::string& text) {
+    std::vector<std::string> parts;
+    for (std::size_t from = 0; from <= text.size();) {
+        const auto colon = std::min(text.find(':', from), text.size());
+        parts.push_back(text.substr(from, colon - from));
+        from = colon + 1;
+    }
+    const auto help = "\"" + text + "\" is no mishap: write DEVICE:KIND[:AFTER[:TIMES[:AMOUNT]]], such as " +
+                      "projector:unplug or lenses:clock-drift:0:0:200.";
+    if (parts.size() < 2 || parts.size() > 5 || parts[0].empty() || parts[1].empty())
+        return fail(Fault::outOfRange, help);
+    devices::RigMishap mishap{parts[0], parts[1]};
+    const auto number = [&](std::size_t part, double otherwise) -> std::optional<double> {
+        if (part >= parts.size()) return otherwise;
+        return wholeNumber(parts[part]);
     };
+    const auto after = number(2, 0.0), times = number(3, 0.0), amount = number(4, 0.0);
+    if (!after || !times || !amount || !(*after >= 0.0 && *after < 1e15) || !(*times >= 0.0 && *times < 1e15))
+        return fail(Fault::outOfRange, help);
+    mishap.after = static_cast<std::uint64_t>(*after);
+    mishap.times = static_cast<std::uint64_t>(*times);
+    mishap.amount = *amount;
+    return mishap;
 }
+
+Result<std::vector<devices::RigMishap>> mishapsOf(const RunOptions& options) {
+    std::vector<devices::RigMishap> mishaps;
+    for (const std::string& text : options.mishaps) {
+        auto mishap = mishapFrom(text);
+        if (!mishap) return tl::unexpected(mishap.error());
+        mishaps.push_back(*std::move(mishap));
+    }
+    if (!mishaps.empty() && options.rig.rig != kEmulatedRig)
+        return fail(Fault::outOfRange, "Mishaps befall the emulated rig only: add --rig emulated.");
+    return mishaps;
+}
+
+Result<void> writeReport(const std::string& path, const json& report) {
+    if (path.empty()) return {};
+    std::error_code ignored;
+    const auto parent = fs::path(path).parent_path();
+    if (!parent.empty()) fs::create_directories(parent, ignored);
+    std::ofstream file(path);
+    file << report.dump(2) << '\n';
+    if (!file.flush())
+        return fail(Fault::cannotWrite,
+                    "The report " + path + " can not be written: check the directory and the space left.");
+    return {};
+}
+
+/// One run, step by step; what it found lies in its report.
+class Run {
+public:
+    Run(const RunOptions& options, const Prepared& project, OwnCore& core)
+        : options_(options), project_(project), core_(core) {}
+
+    Result<void> played() {
+        const auto played = core_.play(program(), std::chrono::duration<double>(options_.seconds));
+        if (!played) return tl::unexpected(played.error());
+        report_ = runReport(project_, options_.file, options_.seconds, *played);
+        std::cout << planText(project_.compiled.plan, project_.compiled.document) << '\n'
+                  << "Played " << played->sweeps << " sweeps on " << inWords(options_.rig) << "; first light "
+                  << played->sentToSwapped_ms << " ms after it was sent";
+        if (played->state && !played->status.emulated)
+            std::cout << "; the lens was " << std::lround(played->state->offWave.si() * 1e3)
+                      << " mD rms off its predicted wave";
+        std::cout << ".\n";
+        if (played->status.contentHashPlayed != contentHash(program())) {
+            return fail(Fault::device, "The devices show another program than the one that was sent; nothing about "
+                                       "this run can be trusted. Run it again, and report it if it stays.");
+        }
+        return played->status.emulated ? readEmulated() : readSimulated(*played);
+    }
+
+    Result<void> pictures() {
+        if (options_.pictures.empty()) return {};
+        json views;
+        const auto written =
+            writePictures(project_.compiled, outcome_ ? &outcome_->sweep : nullptr, options_.pictures, views);
+        if (!written) return tl::unexpected(written.error());
+        report_["pictures"] = written->names;
+        report_["views"] = std::move(views);
+        std::cout << written->names.size() << " pictures in " << options_.pictures << '\n';
+        return {};
+    }
+
+    Result<void> befall(const std::vector<devices::RigMishap>& mishaps) {
+        if (mishaps.empty()) return {};
+        const auto mishap = core_.befall(mishaps, kNoticed);
+        if (!mishap) return tl::unexpected(mishap.error());
+        const auto sweep = core_.received();
+        if (!sweep) return tl::unexpected(sweep.error());
+        const Ended ended = endedAs(*sweep, program().waveform.rest);
+        addMishap(report_, *mishap, *sweep, ended);
+        trouble_ = (mishap->fault.empty() ? "No fault was noticed." : mishap->fault) + " " + inWords(ended);
+        return {};
+    }
+
+    /// What is wrong with what was received; empty: nothing.
+    std::string trouble() const {
+        if (!trouble_.empty()) return trouble_;
+        if (outcome_ && !asIntended(*outcome_))
+            return "The emulated rig received something else than the plan states: " +
+                   devices::verdict(outcome_->light) + ". The report tells it slot by slot.";
+        return {};
+    }
+    const json& report() const { return report_; }
+
+private:
+    const Program& program() const { return project_.compiled.program; }
+
+    Result<void> readSimulated(const Played& played) {
+        if (!played.state) return {};  // nobody measures what real devices gave
+        if (played.state->hashShown != contentHash(program())) {
+            return fail(Fault::device, "The simulated devices show another program than the one that was sent; nothing "
+                                       "about this run can be trusted. Run it again, and report it if it stays.");
+        }
+        const auto compared = receivedAgainstIntended(core_, program());
+        if (!compared) return tl::unexpected(compared.error());
+        report_["received"] = *compared;
+        return {};
+    }
+
+    /// From sending to first light where a program plays already: a changed tile, and back to the program.
+    Result<void> timeUpdate() {
+        Program changed = program();
+        LightImage& image = changed.images.front();
+        const int column = image.columns() / 2, row = image.rows() / 2;
+        image.setTile(column, row, uniformTile(image.isUniform(column, row, 255) ? 0 : 255));
+        if (const auto there = core_.update(changed); !there) return tl::unexpected(there.error());
+        const auto back = core_.update(program());
+        if (!back) return tl::unexpected(back.error());
+        report_["sent_to_first_light_ms"] = *back;
+        return {};
+    }
+
+    Result<void> readEmulated() {
+        if (const auto timed = timeUpdate(); !timed) return timed;
+        std::this_thread::sleep_for(kWholeSweeps);
+        auto sweep = core_.received();
+        if (!sweep) return tl::unexpected(sweep.error());
+        outcome_ = outcomeOf(*std::move(sweep), program(), project_.compiled.document.rig);
+        addOutcome(report_, *outcome_);
+        std::cout << verdict(*outcome_) << '\n';
+        return {};
+    }
+
+    const RunOptions& options_;
+    const Prepared& project_;
+    OwnCore& core_;
+    std::optional<Outcome> outcome_;
+    std::string trouble_;
+    json report_;
+};
 
 }  // namespace
 
 int runCommand(const RunOptions& options) {
-    const auto project = prepared(options.file, options.lens);
+    const auto mishaps = mishapsOf(options);
+    const auto arguments = mishaps.and_then([&](const auto&) { return coreArguments(options.rig); });
+    if (!arguments) {
+        refused("run", arguments.error());
+        return kUsage;
+    }
+    const auto project = prepared(options.file, options.rig);
     if (!project) return refused("run", project.error());
-    const Program& program = project->compiled.program;
-
-    auto core = SimulatedCore::start(options.coreProgram, *simulatedLens(options.lens));
+    auto core = OwnCore::start(options.coreProgram, *arguments);
     if (!core) return refused("run", core.error());
-    const auto played = (*core)->play(program, std::chrono::duration<double>(options.seconds));
-    if (!played) return refused("run", played.error());
-    const auto compared = receivedAgainstIntended(**core, program);
-    if (!compared) return refused("run", compared.error());
 
-    json report = reportOf(*project, options, *played);
-    report["received"] = *compared;
-    if (!options.pictures.empty()) {
-        const auto pictures = writePictures(project->compiled, options.pictures);
-        if (!pictures) return refused("run", pictures.error());
-        report["pictures"] = pictures->names;
-        report["views"] = pictures->views;
-        std::cout << pictures->names.size() << " pictures in " << options.pictures << '\n';
+    Run run(options, *project, **core);
+    const auto done =
+        run.played().and_then([&] { return run.befall(*mishaps); }).and_then([&] { return run.pictures(); });
+    if (!run.report().is_null()) {
+        if (const auto written = writeReport(options.report, run.report()); !written)
+            return refused("run", written.error());
     }
-    if (!options.report.empty()) {
-        std::error_code ignored;
-        const auto parent = fs::path(options.report).parent_path();
-        if (!parent.empty()) fs::create_directories(parent, ignored);
-        std::ofstream file(options.report);
-        file << report.dump(2) << '\n';
-        if (!file.flush()) {
-            return refused("run", {Fault::cannotWrite, "The report " + options.report +
-                                                           " can not be written: check the "
-                                                           "directory and the space left."});
-        }
-    }
-    std::cout << planText(project->compiled.plan, project->compiled.document) << '\n'
-              << "Played " << played->sweeps << " sweeps on the simulated devices; first light "
-              << played->sentToSwapped_ms << " ms after it was sent; the lens was "
-              << std::lround(played->state.offWave.si() * 1e3) << " mD rms off its predicted wave.\n";
-    if (played->state.hashShown != contentHash(program)) {
-        return refused("run",
-                       {Fault::device, "The devices show another program than the one that was sent; nothing "
-                                       "about this run can be trusted. Run it again, and report it if it stays."});
-    }
+    if (!done) return refused("run", done.error());
+    if (!run.trouble().empty()) return refused("run", {Fault::device, run.trouble()});
     return kDone;
 }
 

@@ -102,7 +102,7 @@ int seamsCommand(const SeamsOptions& options) {
     }
     if (!options.experiment.empty()) return experimentCommand(options);
 
-    const auto project = prepared(options.file, options.lens);
+    const auto project = prepared(options.file, options.rig);
     if (!project) return refused("seams", project.error());
     const auto start = std::chrono::steady_clock::now();
     SeamsReport report{project->compiled, borderSeams(project->compiled, question), {}, 0.0};

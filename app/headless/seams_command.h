@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/lens/lens_choice.h"
+#include "app/lens/rig_choice.h"
 
 namespace ilf::app {
 
@@ -16,7 +16,7 @@ struct SeamsOptions {
     bool json = false;
     std::string experiment;  ///< set: a folder of textures, and no file
     std::string out;         ///< of the experiment: folder for pictures and seams.csv
-    LensChoice lens;
+    RigChoice rig;
 };
 int seamsCommand(const SeamsOptions& options);
 

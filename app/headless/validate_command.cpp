@@ -10,8 +10,8 @@
 
 namespace ilf::app {
 
-int validateCommand(const std::string& file, const LensChoice& lens) {
-    const auto project = prepared(file, lens);
+int validateCommand(const std::string& file, const RigChoice& rig) {
+    const auto project = prepared(file, rig);
     if (!project) return refused("validate", project.error());
     if (const auto fits = checked(project->compiled.program); !fits) return refused("validate", fits.error());
     const Plan& plan = project->compiled.plan;

@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "app/lens/lens_choice.h"
+#include "app/lens/rig_choice.h"
 
 namespace ilf::app {
 
-int validateCommand(const std::string& file, const LensChoice& lens = {});
+int validateCommand(const std::string& file, const RigChoice& rig = {});
 
 }  // namespace ilf::app

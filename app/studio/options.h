@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "devices/simulated/emulated_lens.h"
+#include "app/lens/rig_choice.h"
 
 namespace ilf::app {
 
@@ -16,7 +16,7 @@ struct StudioOptions {
     std::string view;
     std::string frameTimes;  ///< JSON to write at the end: what each frame took
     std::string coreProgram;
-    devices::SimulatedLens lens = devices::kUsualLens;  ///< of a core that has to be started
+    RigChoice rig;  ///< instead of the document's, and what a core is started with
 };
 
 /// Opens the window and runs until it is closed; returns the exit code.

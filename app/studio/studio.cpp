@@ -10,6 +10,7 @@
 
 #include "app/exit_code.h"
 #include "app/output_core/log.h"
+#include "app/rigs.h"
 #include "app/studio/core_view.h"
 #include "devices/link/runtime_directory.h"
 #include "projects/pictures.h"
@@ -37,6 +38,13 @@ Size windowSize(const std::string& text) {
     std::from_chars(text.data(), text.data() + cross, size.width);
     std::from_chars(text.data() + cross + 1, text.data() + text.size(), size.height);
     return {std::clamp(size.width, 640, 16384), std::clamp(size.height, 400, 16384)};
+}
+
+/// As far as a core tells: one real rig is not told from another.
+bool playsOn(const devices::Status& core, const RigChoice& choice) {
+    if (choice.rig.empty()) return true;
+    if (choice.rig == kEmulatedRig) return core.emulated;
+    return choice.rig == kSimulatedRig ? core.simulated && !core.emulated : !core.simulated;
 }
 
 ui::ViewMode startMode(const std::string& view) {
@@ -78,18 +86,22 @@ Result<std::unique_ptr<Studio>> Studio::start(const StudioOptions& options) {
             trouble = file.error().what;  // said in the window: the studio opens all the same
         }
     }
+    const auto arguments = coreArguments(options.rig);
+    if (!arguments) return tl::unexpected(arguments.error());
+    if (const auto rig = withOptions(Rig(), options.rig); !rig) return tl::unexpected(rig.error());
     auto window = Window::open("IlluminatedFocus Studio", windowSize(options.size), options.scale);
     if (!window) return tl::unexpected(window.error());
-    auto studio = std::unique_ptr<Studio>(new Studio(options, *std::move(window), std::move(opened)));
+    auto studio = std::unique_ptr<Studio>(new Studio(options, *arguments, *std::move(window), std::move(opened)));
     if (!trouble.empty()) studio->say(trouble, ui::Tone::error);
     return studio;
 }
 
-Studio::Studio(StudioOptions options, std::unique_ptr<Window> window, OpenedFile opened)
+Studio::Studio(StudioOptions options, std::vector<std::string> coreArguments, std::unique_ptr<Window> window,
+               OpenedFile opened)
     : options_(std::move(options)), window_(std::move(window)), editor_(opened.document), keeper_(&Window::wake),
       camera_(&Window::wake), selector_(&Window::wake), times_(!options_.frameTimes.empty()), changedAt_(Clock::now()),
-      worker_(options_.lens, &Window::wake),
-      link_(options_.coreProgram, devices::coreArguments(options_.lens), devices::runtimeDirectory(), &Window::wake) {
+      worker_(*simulatedLens(options_.rig), &Window::wake),
+      link_(options_.coreProgram, std::move(coreArguments), devices::runtimeDirectory(), &Window::wake) {
     if (!options_.resetLayout) ui_ = ui::withLayout(ui_, keeper_.layoutText());
     ui_.mode = startMode(options_.view);
     ui_.recovery = options_.screenshot.empty() ? keeper_.recoveryQuestion() : std::nullopt;
@@ -228,7 +240,14 @@ void Studio::takeNews(LinkNews news) {
         say("Nothing was put on show: the light changed before the program was ready. Press TAKE again.",
             ui::Tone::warning);
     }
+    const bool found = news.status.connected && (!core_.connected || another);
     core_ = std::move(news.status);
+    if (found && !playsOn(core_, options_.rig)) {
+        playAtStart_ = false;
+        say("The output core that runs already does not play on " + inWords(options_.rig) +
+                ": stop it with illuminatedfocus-core --stop, then start the studio again.",
+            ui::Tone::error);
+    }
     if (playAtStart_ && core_.connected) {
         playAtStart_ = false;
         // A project opens playing on a simulated core that has never played. What plays already is left alone (a

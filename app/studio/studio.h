@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/studio/camera_port.h"
 #include "app/studio/editor.h"
@@ -29,7 +30,8 @@ public:
     int run();
 
 private:
-    Studio(StudioOptions options, std::unique_ptr<Window> window, OpenedFile opened);
+    Studio(StudioOptions options, std::vector<std::string> coreArguments, std::unique_ptr<Window> window,
+           OpenedFile opened);
 
     void frame();
     void collect();  ///< takes what threads have finished
@@ -66,6 +68,7 @@ private:
     void on(const ui::Recover& request);
 
     void show(OpenedFile opened);  ///< another project altogether
+    void useChosenRig();           ///< the one the studio was started with, as an edit like any other
     void setScene(Scene scene);
     void take();
     void forgetTake();

@@ -116,6 +116,16 @@ void Studio::show(OpenedFile opened) {
     ui_.fitted = true;
     if (!opened.note.empty()) say(opened.note, ui::Tone::note);
     if (!opened.videoPath.empty()) camera_.openVideo(opened.videoPath);
+    useChosenRig();
+}
+
+void Studio::useChosenRig() {
+    const Rig& own = editor_.document().rig;
+    const auto chosen = withOptions(own, options_.rig);
+    if (!chosen) return say(chosen.error().what, ui::Tone::error);
+    if (*chosen == own) return;
+    edit(SetRig{*chosen});
+    say("Planned for \"" + chosen->name + "\" instead of the project's rig; undo brings that back.", ui::Tone::note);
 }
 
 void Studio::setScene(Scene scene) {
