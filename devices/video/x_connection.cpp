@@ -15,6 +15,14 @@ struct Registry {
     std::mutex mutex;
     std::vector<std::pair<Display*, XConnection*>> ours;
     XErrorHandler others = nullptr;
+    XIOErrorHandler othersLoss = nullptr;
+
+    XConnection* find(Display* display) {
+        const std::scoped_lock lock(mutex);
+        for (const auto& [known, connection] : ours)
+            if (known == display) return connection;
+        return nullptr;
+    }
 };
 
 Registry& registry() {
@@ -23,29 +31,34 @@ Registry& registry() {
 }
 
 int onRefusal(Display* display, XErrorEvent* event) {
-    XErrorHandler others = nullptr;
-    {
-        const std::scoped_lock lock(registry().mutex);
-        for (const auto& [known, connection] : registry().ours)
-            if (known == display) {
-                connection->refused();
-                return 0;
-            }
-        others = registry().others;
+    if (XConnection* connection = registry().find(display)) {
+        connection->refused();
+        return 0;
     }
-    return others != nullptr ? others(display, event) : 0;
+    return registry().others != nullptr ? registry().others(display, event) : 0;
 }
 
-// Called in the place of exit(1), by whichever call of Xlib found the connection broken.
-void onLoss(Display*, void* connection) { static_cast<XConnection*>(connection)->gone(); }
+// Called by whichever call of Xlib found the connection broken. Xlib's own says so on standard error and exits.
+int onLoss(Display* display) {
+    if (XConnection* connection = registry().find(display)) {
+        connection->gone();
+        return 0;
+    }
+    return registry().othersLoss != nullptr ? registry().othersLoss(display) : 0;
+}
+
+// Called next, in the place of exit(1).
+void stay(Display*, void*) {}
 
 }  // namespace
 
 XConnection::XConnection(_XDisplay* display) : display_(display) {
-    const std::scoped_lock lock(registry().mutex);
-    registry().ours.emplace_back(display, this);
-    if (const XErrorHandler before = XSetErrorHandler(onRefusal); before != onRefusal) registry().others = before;
-    XSetIOErrorExitHandler(display, onLoss, this);
+    Registry& all = registry();
+    const std::scoped_lock lock(all.mutex);
+    all.ours.emplace_back(display, this);
+    if (const XErrorHandler before = XSetErrorHandler(onRefusal); before != onRefusal) all.others = before;
+    if (const XIOErrorHandler before = XSetIOErrorHandler(onLoss); before != onLoss) all.othersLoss = before;
+    XSetIOErrorExitHandler(display, stay, nullptr);
 }
 
 XConnection::~XConnection() {

@@ -1,0 +1,177 @@
+// X servers for tests: with a number of their own, gone at the end of the test however it ends.
+#pragma once
+
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+
+#include <array>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fstream>
+#include <optional>
+#include <poll.h>
+#include <signal.h>
+#include <string>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
+
+#include "devices/rig/video_output.h"
+#include "tests/support/run_program.h"
+
+namespace ilf::test {
+
+/// Sets DISPLAY while it lives.
+class XServer {
+public:
+    /// `arguments`: the program, and what it is told beside its number.
+    explicit XServer(std::vector<std::string> arguments, const std::string& number = "") {
+        std::array<int, 2> told{};
+        if (pipe2(told.data(), O_CLOEXEC) != 0) return;
+        arguments.insert(arguments.end(), {"-displayfd", "9", "-noreset", "-nolisten", "tcp"});
+        if (!number.empty()) arguments.insert(arguments.begin() + 1, ":" + number);
+        std::vector<char*> argv;
+        for (std::string& argument : arguments)
+            argv.push_back(argument.data());
+        argv.push_back(nullptr);
+        pid_ = fork();
+        if (pid_ == 0) {
+            prctl(PR_SET_PDEATHSIG, SIGKILL);
+            const int nothing = open("/dev/null", O_RDWR);
+            for (const int fd : {0, 1, 2})
+                dup2(nothing, fd);
+            dup2(told[1], 9);
+            unsetenv("LD_PRELOAD");
+            execvp(argv[0], argv.data());
+            _exit(127);
+        }
+        close(told[1]);
+        std::string line;
+        pollfd waited{told[0], POLLIN, 0};
+        char c = 0;
+        // The number comes once the server answers; a server that cannot start closes the pipe.
+        while (poll(&waited, 1, 20000) == 1 && read(told[0], &c, 1) == 1 && c != '\n')
+            line += c;
+        close(told[0]);
+        if (line.empty() || c != '\n') {
+            kill();
+            return;
+        }
+        number_ = line;
+        setenv("DISPLAY", (":" + number_).c_str(), 1);
+    }
+    static XServer xvfb(const std::string& screen, const std::string& number = "") {
+        return XServer({"Xvfb", "-screen", "0", screen}, number);
+    }
+    ~XServer() {
+        kill();
+        unsetenv("DISPLAY");
+    }
+    XServer(const XServer&) = delete;
+    XServer& operator=(const XServer&) = delete;
+
+    bool runs() const { return !number_.empty(); }
+    const std::string& number() const { return number_; }
+    void kill() {
+        if (pid_ <= 0) return;
+        ::kill(pid_, SIGKILL);
+        waitpid(pid_, nullptr, 0);
+        pid_ = -1;
+        // Killed, it could not tidy up, and a new server of this number would think it still runs.
+        if (number_.empty()) return;
+        unlink(("/tmp/.X" + number_ + "-lock").c_str());
+        unlink(("/tmp/.X11-unix/X" + number_).c_str());
+    }
+
+private:
+    pid_t pid_ = -1;
+    std::string number_;
+};
+
+/// Two screens of a graphics card that is not there: DUMMY0, the operator's, 1024x768 and primary; DUMMY1 unplugged.
+class TwoDisplays {
+public:
+    TwoDisplays() {
+        if (geteuid() != 0) return;  // Xorg may be started by root only where there is no console
+        std::ofstream(folder_ / "xorg.conf") << R"(
+Section "ServerFlags"
+  Option "AutoAddDevices" "false"
+EndSection
+Section "Device"
+  Identifier "card"
+  Driver "dummy"
+  VideoRam 262144
+EndSection
+Section "Monitor"
+  Identifier "monitor"
+  HorizSync 5-1000
+  VertRefresh 5-300
+EndSection
+Section "Screen"
+  Identifier "screen"
+  Device "card"
+  Monitor "monitor"
+  DefaultDepth 24
+  SubSection "Display"
+    Depth 24
+    Virtual 4096 2160
+    Modes "1024x768"
+  EndSubSection
+EndSection
+)";
+        server_.emplace(std::vector<std::string>{"Xorg", "-config", folder_ / "xorg.conf", "-logfile", folder_ / "log",
+                                                 "+extension", "GLX", "+extension", "RANDR"});
+        if (!server_->runs()) return;
+        xrandr("--newmode projector 83.68 912 952 1016 1192 1140 1150 1156 1170 +HSync +VSync");
+        ready_ = xrandr("--output DUMMY0 --mode 1024x768 --primary");
+    }
+    bool runs() const { return ready_; }
+    bool xrandr(const std::string& arguments) const {
+        return std::system(("xrandr " + arguments + " > /dev/null 2>&1").c_str()) == 0;
+    }
+    /// As a cable does: the display is known, and switched off.
+    void plug(const std::string& output) const { xrandr("--addmode " + output + " projector"); }
+    void switchOn(const std::string& output, const std::string& where = "--right-of DUMMY0") const {
+        xrandr("--output " + output + " --mode projector " + where);
+    }
+    void unplug(const std::string& output) const {
+        xrandr("--output " + output + " --off");
+        xrandr("--delmode " + output + " projector");
+    }
+
+private:
+    TemporaryDirectory folder_;
+    std::optional<XServer> server_;
+    bool ready_ = false;
+};
+
+/// What a part of the desktop shows now, as another program sees it; empty where nothing could be read.
+inline devices::VideoFrame seen(int left, int top, Size size) {
+    Display* display = XOpenDisplay(nullptr);
+    if (display == nullptr) return {};
+    XImage* image = XGetImage(display, DefaultRootWindow(display), left, top, static_cast<unsigned>(size.width),
+                              static_cast<unsigned>(size.height), AllPlanes, ZPixmap);
+    std::vector<std::uint8_t> pixels;
+    for (int y = 0; image != nullptr && y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const unsigned long pixel = XGetPixel(image, x, y);
+            for (const unsigned shift : {16U, 8U, 0U})
+                pixels.push_back(static_cast<std::uint8_t>(pixel >> shift & 255U));
+        }
+    if (image != nullptr) XDestroyImage(image);
+    XCloseDisplay(display);
+    return pixels.empty() ? devices::VideoFrame() : devices::VideoFrame(size, 3, std::move(pixels));
+}
+
+/// Every pixel another, from a seed.
+inline devices::VideoFrame noise(Size size, std::uint32_t seed) {
+    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) * 3);
+    for (std::uint8_t& value : pixels) {
+        seed = seed * 1664525U + 1013904223U;
+        value = static_cast<std::uint8_t>(seed >> 24U);
+    }
+    return {size, 3, std::move(pixels)};
+}
+
+}  // namespace ilf::test
