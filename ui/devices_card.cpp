@@ -3,6 +3,8 @@
 #include <cstdio>
 
 #include "ui/icons.h"
+#include <utility>
+
 #include "ui/widgets.h"
 
 namespace ilf::ui {
@@ -66,7 +68,39 @@ void deviceRow(Panel& p, const Device& device) {
     ImGui::Dummy({1, p.px(3)});
 }
 
+/// Which rig, and where rigs are kept: files of their own, since one room is the same for every project.
+void rigChoice(Panel& p) {
+    if (!p.state.rigWanted.empty()) {
+        wrapped("What plays stops: steady light, lens at rest. The output core then starts with " +
+                    (p.state.rigWanted.find('/') == std::string::npos ? "the " + p.state.rigWanted + " devices."
+                                                                      : p.state.rigWanted + "."),
+                colour::text, Font::small);
+        if (ImGui::Button("Stop and change###changeRig"))
+            p.requests.push_back(UseRig{std::exchange(p.state.rigWanted, {})});
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel###keepRig")) p.state.rigWanted.clear();
+        return;
+    }
+    const CoreStatus& core = p.view.core;
+    const int now = !core.connected ? -1 : core.emulated ? 1 : core.simulated ? 0 : 2;
+    if (const auto chosen =
+            choice("###rigKind", {"Simulated", "Emulated", "File\u2026"}, now, ImGui::GetContentRegionAvail().x)) {
+        if (*chosen == 2)
+            openFileDialog(p.state, FileDialog::Purpose::openRig, p.view);
+        else if (*chosen != now)
+            wantRig(p, *chosen == 0 ? "simulated" : "emulated");
+    }
+    if (ImGui::Button("Save this rig\u2026###saveRig")) openFileDialog(p.state, FileDialog::Purpose::saveRig, p.view);
+}
+
 }  // namespace
+
+void wantRig(Panel& p, const std::string& rig) {
+    if (p.view.core.connected && p.view.core.light == Light::slotted)
+        p.state.rigWanted = rig;
+    else
+        p.requests.push_back(UseRig{rig});
+}
 
 std::string kindOf(const CoreStatus& core) {
     return core.emulated ? "emulated" : core.simulated ? "simulated" : "hardware";
@@ -114,6 +148,7 @@ void devicesCard(Panel& p) {
     heading("DEVICES");
     if (!core.connected) {
         wrapped("Not connected: what the room shows is not known here. The studio keeps trying.", colour::fault);
+        rigChoice(p);
         return;
     }
     const std::string kind = kindOf(core);
@@ -122,6 +157,7 @@ void devicesCard(Panel& p) {
     text(kind, core.simulated ? colour::warn : colour::good);
     for (const Device& device : devicesOf(core))
         deviceRow(p, device);
+    rigChoice(p);
 }
 
 }  // namespace ilf::ui

@@ -10,6 +10,9 @@ namespace ilf::ui {
 
 void devicesCard(Panel& p);
 
+/// Asks for another rig; at once in steady light, after the operator's word while something plays.
+void wantRig(Panel& p, const std::string& rig);
+
 /// What kind of devices these are, in the operator's words: "simulated", "emulated" (the drivers of real devices over
 /// emulated cables) or "hardware".
 std::string kindOf(const CoreStatus& core);

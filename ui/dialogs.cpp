@@ -7,6 +7,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include "ui/devices_card.h"
 #include "ui/icons.h"
 #include "ui/widgets.h"
 
@@ -17,7 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 using Purpose = FileDialog::Purpose;
 
-bool saves(Purpose purpose) { return purpose == Purpose::saveAs || purpose == Purpose::exportView; }
+bool saves(Purpose purpose) {
+    return purpose == Purpose::saveAs || purpose == Purpose::exportView || purpose == Purpose::saveRig;
+}
 
 const char* titleOf(Purpose purpose) {
     switch (purpose) {
@@ -29,6 +32,10 @@ const char* titleOf(Purpose purpose) {
         return "Save the project";
     case Purpose::exportView:
         return "Export the view as PNG";
+    case Purpose::openRig:
+        return "Open a rig";
+    case Purpose::saveRig:
+        return "Save the rig";
     case Purpose::depthMap:
         break;
     }
@@ -86,6 +93,7 @@ bool accept(Panel& p, FileDialog& dialog) {
     }
     if (dialog.purpose == Purpose::saveAs && path.extension() != ".ilf" && path.extension() != ".ilfd") path += ".ilf";
     if (dialog.purpose == Purpose::exportView && path.extension() != ".png") path += ".png";
+    if (dialog.purpose == Purpose::saveRig && path.extension() != ".json") path += ".json";
     if (saves(dialog.purpose) && fs::exists(path, ignored) && !dialog.confirmOverwrite) {
         dialog.confirmOverwrite = true;
         return false;
@@ -106,6 +114,12 @@ bool accept(Panel& p, FileDialog& dialog) {
         break;
     case Purpose::exportView:
         p.requests.push_back(ExportView{path.string()});
+        break;
+    case Purpose::openRig:
+        wantRig(p, path.string());
+        break;
+    case Purpose::saveRig:
+        p.requests.push_back(SaveRig{path.string()});
         break;
     case Purpose::depthMap:
         p.requests.push_back(LoadDepthMap{path.string(), 1.0_mm});
@@ -300,6 +314,7 @@ void openFileDialog(State& state, Purpose purpose, const View& view) {
     }
     enter(dialog, folder);
     if (purpose == Purpose::exportView) dialog.name = view.document.name + ".png";
+    if (purpose == Purpose::saveRig) dialog.name = view.document.rig.name + ".json";
     state.fileDialog = std::move(dialog);
 }
 

@@ -62,13 +62,21 @@ struct LoadDepthMap {
     std::string path;
     Metre metresPerUnit = 1.0_mm;
 };
+/// Plan for and play on another rig: "simulated", "emulated", or a rig's file. The output core is stopped in safe light
+/// and started anew.
+struct UseRig {
+    std::string rig;
+};
+struct SaveRig {
+    std::string path;
+};
 /// Answer to the recovery question at start.
 struct Recover {
     enum class Choice { recover, openSaved, skip } choice = Choice::recover;
 };
-using Request =
-    std::variant<EditRequest, CommitGesture, CancelGesture, RunCommand, OpenFile, SaveFile, ExportView, OpenCamera,
-                 SeekVideo, SelectObject, SelectFlood, GoToHistory, AcknowledgeFault, LoadDepthMap, Recover>;
+using Request = std::variant<EditRequest, CommitGesture, CancelGesture, RunCommand, OpenFile, SaveFile, ExportView,
+                             OpenCamera, SeekVideo, SelectObject, SelectFlood, GoToHistory, AcknowledgeFault,
+                             LoadDepthMap, UseRig, SaveRig, Recover>;
 using Requests = std::vector<Request>;
 
 }  // namespace ilf::ui

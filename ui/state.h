@@ -71,7 +71,7 @@ struct FieldState {
 };
 
 struct FileDialog {
-    enum class Purpose { open, openScene, saveAs, exportView, depthMap } purpose = Purpose::open;
+    enum class Purpose { open, openScene, saveAs, exportView, depthMap, openRig, saveRig } purpose = Purpose::open;
     std::string folder;
     std::string name;
     struct Entry {
@@ -130,6 +130,7 @@ struct State {
 
     std::optional<FileDialog> fileDialog;
     std::optional<RecoveryQuestion> recovery;
+    std::string rigWanted;  ///< asked for while something plays; waits for the operator's word
     bool shortcutsOpen = false, aboutOpen = false, popupsOpen = false;
     std::vector<Toast> toasts;
 };

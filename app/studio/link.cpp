@@ -1,6 +1,8 @@
 #include "app/studio/link.h"
 
+#include "app/output_core/roles.h"
 #include "devices/link/core_link.h"
+#include "devices/link/runtime_directory.h"
 #include "devices/link/start_core.h"
 
 namespace ilf::app {
@@ -35,6 +37,12 @@ void Link::safeLight() {
     next_.reset();
 }
 
+void Link::restartCore(std::vector<std::string> arguments) {
+    const std::scoped_lock lock(mutex_);
+    restart_ = std::move(arguments);
+    next_.reset();
+}
+
 void Link::run(std::stop_token stop) {
     LinkNews last;
     const auto publish = [&](const LinkNews& news) {
@@ -50,12 +58,22 @@ void Link::run(std::stop_token stop) {
     while (!stop.stop_requested()) {
         std::optional<Sending> sending;
         bool safe = false;
+        std::optional<std::vector<std::string>> restart;
         {
             const std::scoped_lock lock(mutex_);
             safe = std::exchange(safe_, false);
+            restart = std::exchange(restart_, std::nullopt);
             if (core.status().connected) sending = std::exchange(next_, std::nullopt);
         }
         std::string trouble;
+        if (restart) {
+            coreArguments_ = *std::move(restart);
+            if (devices::FileLock::holder(devices::supervisorLock(runtimeDirectory_)))
+                // White stays on a real projector; there is no emulated one any more.
+                stopSupervisor(runtimeDirectory_, core.status().simulated);
+            const auto started = devices::ensureCoreRunning(coreProgram_, runtimeDirectory_, coreArguments_);
+            if (!started) trouble = started.error().what;
+        }
         if (safe) {
             if (const auto done = core.safeLight(); !done) trouble = done.error().what;
         }

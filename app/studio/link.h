@@ -39,6 +39,8 @@ public:
 
     void send(Sending sending);
     void safeLight();
+    /// Stops the core that runs, in safe light, and starts one with these arguments.
+    void restartCore(std::vector<std::string> arguments);
     std::optional<LinkNews> tryTake() { return news_.tryTake(); }
 
 private:
@@ -51,6 +53,7 @@ private:
     std::mutex mutex_;
     std::optional<Sending> next_;
     bool safe_ = false;
+    std::optional<std::vector<std::string>> restart_;
     Latest<LinkNews> news_;
     std::jthread thread_;  // last: joins before what it uses goes
 };

@@ -65,6 +65,8 @@ private:
     void on(const ui::GoToHistory& request);
     void on(const ui::AcknowledgeFault& request);
     void on(const ui::LoadDepthMap& request);
+    void on(const ui::UseRig& request);
+    void on(const ui::SaveRig& request);
     void on(const ui::Recover& request);
 
     void show(OpenedFile opened);  ///< another project altogether

@@ -7,6 +7,7 @@
 #include "app/studio/studio.h"
 #include "core/base/srgb.h"
 #include "projects/pictures.h"
+#include "projects/wearer_rig.h"
 
 namespace ilf::app {
 namespace fs = std::filesystem;
@@ -126,6 +127,26 @@ void Studio::useChosenRig() {
     if (*chosen == own) return;
     edit(SetRig{*chosen});
     say("Planned for \"" + chosen->name + "\" instead of the project's rig; undo brings that back.", ui::Tone::note);
+}
+
+void Studio::on(const ui::UseRig& request) {
+    RigChoice choice = options_.rig;
+    choice.rig = request.rig;
+    choice.bits.reset();
+    const auto rig = withOptions(editor_.document().rig, choice);
+    if (!rig) return say(rig.error().what, ui::Tone::error);
+    auto arguments = coreArguments(choice);
+    if (!arguments) return say(arguments.error().what, ui::Tone::error);
+    options_.rig = std::move(choice);
+    forgetTake();
+    useChosenRig();
+    link_.restartCore(*std::move(arguments));
+}
+
+void Studio::on(const ui::SaveRig& request) {
+    const auto written = projects::writeRig(request.path, editor_.document().rig);
+    say(written ? "Saved the rig as " + request.path + "." : written.error().what,
+        written ? ui::Tone::note : ui::Tone::error);
 }
 
 void Studio::setScene(Scene scene) {

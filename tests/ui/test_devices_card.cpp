@@ -66,3 +66,27 @@ TEST_CASE("devices card: any mixture of devices fits on the narrowest page") {
         CHECK(page->ContentSize.x <= page->Size.x);
     }
 }
+
+TEST_CASE(
+    "devices card: another rig waits for the operator's word while something plays, and for nothing in steady light") {
+    Desk desk(twoRegions(), {1280, 3000});
+    desk.state.page = Page::rig;
+    desk.settle();
+    const char* page = pageWindow(Page::rig);
+    CHECK(first<UseRig>(desk.press(page, {"###rigKind", "Emulated"})) == nullptr);
+    CHECK(desk.state.rigWanted == "emulated");
+    desk.settle();
+    CHECK(first<UseRig>(desk.press(page, {"###keepRig"})) == nullptr);
+    CHECK(desk.state.rigWanted.empty());
+    desk.press(page, {"###rigKind", "Emulated"});
+    desk.settle();
+    const Requests asked = desk.press(page, {"###changeRig"});
+    REQUIRE(first<UseRig>(asked) != nullptr);
+    CHECK(first<UseRig>(asked)->rig == "emulated");
+
+    desk.dress = [](View& view) { view.core.light = Light::steady; };
+    desk.settle();
+    const Requests atOnce = desk.press(page, {"###rigKind", "Emulated"});
+    REQUIRE(first<UseRig>(atOnce) != nullptr);
+    CHECK(desk.state.rigWanted.empty());
+}
