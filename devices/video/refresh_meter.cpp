@@ -7,9 +7,9 @@ namespace {
 
 constexpr std::size_t kWindow = 120;
 constexpr std::size_t kFewest = 8;
-constexpr double kKnown = 100e-6;
+constexpr double kKnown = 150e-6;
 // Over more frames than this the count of frames between two swaps could be off by one.
-constexpr double kLongestGap = 200;
+constexpr double kLongestGap = 1000;
 // Crystals are good to 100 ppm; modes named 60 Hz may be 59.8.
 constexpr double kMostOffNominal = 0.02;
 

@@ -12,7 +12,7 @@ namespace ilf::devices {
 
 /// Fits a straight line through the times of swaps over their frame numbers. Pure: time is an argument.
 ///
-/// Says 0 until the line's slope is known to 100 ppm (standard error; 59.94 is 1000 ppm from 60), and for good once the
+/// Says 0 until the line's slope is known to 150 ppm (standard error; 59.94 is 1000 ppm from 60), and for good once the
 /// swaps turn out not to wait for the display: where the server names no rate, or the first swaps, which are to follow
 /// each other directly, are not that far apart.
 class RefreshMeter {

@@ -224,7 +224,8 @@ Result<void> setRaster(XConnection& x, const std::vector<XDisplay>& displays, co
     (void)x.accepted();
     XGrabServer(x.get());
     growDesktop(x, place.left + raster.width, place.top + raster.height);
-    noTransform(x, crtc);
+    if (!unscaled(x, crtc)) noTransform(x, crtc);
+    (void)x.accepted();  // whether it became unscaled is seen when it is asked for again
     RROutput output = display.output;
     const int status = XRRSetCrtcConfig(x.get(), resources.get(), crtc, CurrentTime, place.left, place.top, mode->id,
                                         RR_Rotate_0, &output, 1);

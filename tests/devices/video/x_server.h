@@ -130,15 +130,18 @@ EndSection
     bool xrandr(const std::string& arguments) const {
         return std::system(("xrandr " + arguments + " > /dev/null 2>&1").c_str()) == 0;
     }
-    /// As a cable does: the display is known, and switched off.
-    void plug(const std::string& output) const { xrandr("--addmode " + output + " projector"); }
+    /// The display is known, and switched off. To the dummy driver a display is connected once it was on when the
+    /// server looked, and for ever after: to be switched off is as near to being unplugged as it comes.
+    void plug(const std::string& output, const std::string& mode = "projector") const {
+        xrandr("--addmode " + output + " " + mode);
+        xrandr("--output " + output + " --mode " + mode + " --pos 3000x0");
+        xrandr("--query");
+        switchOff(output);
+    }
     void switchOn(const std::string& output, const std::string& where = "--right-of DUMMY0") const {
         xrandr("--output " + output + " --mode projector " + where);
     }
-    void unplug(const std::string& output) const {
-        xrandr("--output " + output + " --off");
-        xrandr("--delmode " + output + " projector");
-    }
+    void switchOff(const std::string& output) const { xrandr("--output " + output + " --off"); }
 
 private:
     TemporaryDirectory folder_;
