@@ -44,7 +44,8 @@ std::shared_ptr<VideoOutput> output(const std::string& connector = "") {
 /// Whether the display's gamma ramp is a straight line.
 bool straight(const std::string& connector) {
     const auto x = *XConnection::open();
-    for (const XDisplay& display : *xDisplays(*x)) {
+    const auto all = *xDisplays(*x);
+    for (const XDisplay& display : all) {
         if (display.found.identity.connector != connector) continue;
         XRRCrtcGamma* ramp = XRRGetCrtcGamma(x->get(), display.crtc);
         bool is = ramp != nullptr && ramp->size > 1;
