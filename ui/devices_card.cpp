@@ -52,18 +52,20 @@ void deviceRow(Panel& p, const Device& device) {
     else
         draw.AddCircleFilled(centre, radius, ink);
     ImGui::SetCursorScreenPos({at.x + p.px(16), at.y});
-    wrapped(device.name.empty() ? device.what : device.name, colour::text, Font::strong);
+    std::string what = device.what;
+    if (!what.empty() && what[0] >= 'a' && what[0] <= 'z') what[0] = static_cast<char>(what[0] - 'a' + 'A');
+    text(what, colour::text, Font::strong);
+    if (!device.line.empty()) tooltip(device.line);
     const std::string state = word(device.health);
-    const float width = ImGui::CalcTextSize(state.c_str()).x;
-    // Beside the name where there is room, else on a line of its own.
-    if (ImGui::GetItemRectMax().x + p.px(12) + width < right)
-        ImGui::SameLine(right - width - ImGui::GetWindowPos().x);
-    else
-        ImGui::SetCursorScreenPos({at.x + p.px(16), ImGui::GetCursorScreenPos().y});
+    ImGui::SameLine(right - ImGui::CalcTextSize(state.c_str()).x - ImGui::GetWindowPos().x);
     text(state, ink);
-    if (!device.line.empty()) {
+    // A device that is well has nothing to say that its word does not; its sentence is in the tooltip.
+    const bool well = device.health == DeviceHealth::well;
+    for (const auto& [words, colour] :
+         {std::pair(device.name, colour::dim), std::pair(well ? std::string() : device.line, colour::text)}) {
+        if (words.empty()) continue;
         ImGui::SetCursorScreenPos({at.x + p.px(16), ImGui::GetCursorScreenPos().y});
-        wrapped(device.line, device.health == DeviceHealth::well ? colour::dim : colour::text, Font::small);
+        wrapped(words, colour, Font::small);
     }
     ImGui::Dummy({1, p.px(3)});
 }
