@@ -9,27 +9,43 @@
 
 namespace {
 
+int refused(const ilf::Error& error, int code) {
+    std::fprintf(stderr, "%s\n", error.what.c_str());
+    return code;
+}
+
 int run(int argc, char** argv) {
     CLI::App options{
-        "The output core of IlluminatedFocus: plays programs on lens and projector (simulated), and makes steady white "
-        "light, lens at rest, whenever something fails. The studio starts it by itself.",
+        "The output core of IlluminatedFocus: plays programs on lens and projector, and makes steady white light, lens "
+        "at rest, whenever something fails. The studio starts it by itself.",
         "illuminatedfocus-core"};
-    std::string directory = ilf::devices::runtimeDirectory().string();
+    std::string directory = ilf::devices::runtimeDirectory().string(), rig = "simulated";
     std::string afterFault, lensWord(ilf::devices::word(ilf::devices::kUsualLens));
-    bool leaveDevices = false, stop = false, status = false, player = false, devices = false;
+    bool leaveDevices = false, stop = false, releaseDisplay = false, status = false;
+    bool player = false, devices = false, guard = false, makeSafe = false;
     options.add_option("--runtime-dir", directory, "Where sockets and locks are")->capture_default_str();
-    options.add_option("--simulated-lens", lensWord, "The lens that is simulated")
+    options
+        .add_option("--rig", rig,
+                    "What is played on: simulated, emulated (the drivers of real devices over emulated cables), or a "
+                    "rig's file; one that names no devices is simulated")
+        ->capture_default_str();
+    options.add_option("--simulated-lens", lensWord, "The lens of a simulated or emulated rig")
         ->check(CLI::IsMember({"slow", "datasheet", "lively", "clean", "dirty", "ideal"}))
         ->capture_default_str();
-    options.add_flag("--leave-devices", leaveDevices, "Leave the simulated devices on when stopping");
+    options.add_flag("--leave-devices", leaveDevices, "Leave simulated or emulated devices on when stopping");
     auto* stopFlag = options.add_flag("--stop", stop, "Stop the output core that runs, in safe light");
+    options.add_flag("--release-display", releaseDisplay, "With --stop: the projector's display, too, is given back")
+        ->needs(stopFlag);
     auto* statusFlag = options.add_flag("--status", status, "Print what core and devices say, as one line of JSON");
     auto* playerFlag = options.add_flag("--player", player, "Be the player (its supervisor starts it)");
-    auto* devicesFlag = options.add_flag("--devices", devices, "Be the simulated lens and projector");
+    auto* devicesFlag = options.add_flag("--devices", devices, "Be the simulated or emulated devices");
+    auto* guardFlag = options.add_flag("--guard", guard, "Be the white below the player's window");
+    auto* safeFlag = options.add_flag("--make-safe", makeSafe, "Make a stage safe that nobody holds, and end");
     options.add_option("--after-fault", afterFault, "With --player: why the one before it ended")->needs(playerFlag);
-    stopFlag->excludes(statusFlag)->excludes(playerFlag)->excludes(devicesFlag);
-    statusFlag->excludes(playerFlag)->excludes(devicesFlag);
-    playerFlag->excludes(devicesFlag);
+    CLI::Option* roles[] = {stopFlag, statusFlag, playerFlag, devicesFlag, guardFlag, safeFlag};
+    for (auto* one : roles)
+        for (auto* other : roles)
+            if (one != other) one->excludes(other);
     options.set_version_flag("--version", std::string("illuminatedfocus-core ") + ilf::kVersion);
     try {
         options.parse(argc, argv);
@@ -37,15 +53,22 @@ int run(int argc, char** argv) {
         return options.exit(error) == 0 ? 0 : 2;
     }
     if (status) return ilf::app::printStatus(directory);
-    if (stop) return ilf::app::stopSupervisor(directory);
-    if (const auto ready = ilf::devices::prepareRuntimeDirectory(directory); !ready) {
-        std::fprintf(stderr, "%s\n", ready.error().what.c_str());
-        return 3;
-    }
-    if (player) return ilf::app::runPlayer(directory, afterFault);
-    const auto lens = *ilf::devices::simulatedLensFromWord(lensWord);
-    if (devices) return ilf::app::runDevices(directory, lens);
-    return ilf::app::runSupervisor(directory, leaveDevices, lens);
+    if (stop) return ilf::app::stopSupervisor(directory, releaseDisplay);
+    auto played = ilf::app::playedRig(rig);
+    if (!played) return refused(played.error(), 2);
+    if (played->machine == ilf::app::Machine::emulated && lensWord == "ideal")
+        return refused({ilf::Fault::unsupported, "The emulated rig drives a lens by its coil, which the ideal one does "
+                                                 "not have: choose slow, datasheet, lively, clean or dirty."},
+                       2);
+    if (guard && !ilf::app::lightsThroughDisplay(*played))
+        return refused({ilf::Fault::unsupported, "This rig has no display to keep white."}, 2);
+    if (const auto ready = ilf::devices::prepareRuntimeDirectory(directory); !ready) return refused(ready.error(), 3);
+    const ilf::app::CoreSetup setup{directory, *std::move(played), *ilf::devices::simulatedLensFromWord(lensWord)};
+    if (player) return ilf::app::runPlayer(setup, afterFault);
+    if (devices) return ilf::app::runDevices(setup);
+    if (guard) return ilf::app::runGuard(setup);
+    if (makeSafe) return ilf::app::makeStageSafe(setup);
+    return ilf::app::runSupervisor(setup, leaveDevices);
 }
 
 }  // namespace

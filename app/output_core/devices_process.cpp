@@ -1,25 +1,33 @@
-#include <spdlog/spdlog.h>
 #include <sys/prctl.h>
 
 #include <csignal>
+#include <cstdio>
 
+#include "app/output_core/events.h"
 #include "app/output_core/log.h"
 #include "app/output_core/priority.h"
 #include "app/output_core/roles.h"
 #include "app/output_core/signals.h"
+#include "devices/emulated_rig/emulated_rig.h"
 #include "devices/simulated/device_server.h"
 
 namespace ilf::app {
 
-int runDevices(const std::filesystem::path& runtimeDirectory, devices::SimulatedLens lens) {
+int runDevices(const CoreSetup& setup) {
     const Signals signals{SIGTERM, SIGINT};
     prctl(PR_SET_NAME, "ilf-devices");  // its own name: whoever kills the core by name leaves the machine running
     comeFirst();
-    startLog("simulated-devices");
-    const auto served = devices::serveDevices(runtimeDirectory, lens, signals.descriptor(),
-                                              [](const std::string& line) { spdlog::info("{}", line); });
+    const bool emulated = setup.played.machine == Machine::emulated;
+    startLog(emulated ? "emulated-rig" : "simulated-devices");
+    const auto said = [](const std::string& line) { note(event::kDevicesSaid, line); };
+    const auto served = emulated
+                            ? devices::serveEmulatedRig(setup.runtimeDirectory,
+                                                        setup.lens.preset.value_or(devices::LensPreset::datasheet),
+                                                        signals.descriptor(), said)
+                            : devices::serveDevices(setup.runtimeDirectory, setup.lens, signals.descriptor(), said);
     if (served) return 0;
-    spdlog::error("{}", served.error().what);
+    note(event::kDevicesFailed, served.error().what);
+    std::fprintf(stderr, "%s\n", served.error().what.c_str());
     return 3;
 }
 

@@ -20,8 +20,9 @@ constexpr std::int64_t kBetweenSweepStarts_ns = 1'000'000'000;
 
 }  // namespace
 
-Player::Player(std::unique_ptr<devices::Stage> stage, std::function<void()> changed, const std::string& afterFault)
-    : stage_(std::move(stage)), changed_(std::move(changed)),
+Player::Player(std::unique_ptr<devices::Stage> stage, std::function<void()> changed, const std::string& afterFault,
+               std::vector<std::string> limits)
+    : stage_(std::move(stage)), changed_(std::move(changed)), turned_ns_(devices::monotonicNs()),
       // Never the number of a player before this one: a take meant for that one must not end this one's hold.
       lastHold_(static_cast<std::uint64_t>(devices::monotonicNs())) {
     status_.pid = getpid();
@@ -29,6 +30,7 @@ Player::Player(std::unique_ptr<devices::Stage> stage, std::function<void()> chan
     status_.hold = lastHold_;
     status_.fault = afterFault;
     status_.faults = afterFault.empty() ? 0 : 1;
+    status_.limits = std::move(limits);
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -43,9 +45,15 @@ void Player::safeLight() {
     orders_.put(std::nullopt);
 }
 
+std::chrono::nanoseconds Player::busyFor() const {
+    return std::chrono::nanoseconds(devices::monotonicNs() - turned_ns_);
+}
+
 void Player::run(const std::stop_token& stop) {
+    say();  // first: devices that are looked for make safe light slow
     stage_->safeLight();
     while (!stop.stop_requested()) {
+        turned_ns_ = devices::monotonicNs();
         try {
             auto order = orders_.takeWithin(stop, kHeartbeat);
             if (stop.stop_requested()) break;
@@ -69,6 +77,7 @@ void Player::run(const std::stop_token& stop) {
     }
     stage_->safeLight();
     say();
+    ended_ = true;
 }
 
 void Player::hold() {
@@ -155,6 +164,10 @@ void Player::say() {
     status_.lensName = report.lensName;
     status_.projectorWell = status_.lensWell = report.well;
     status_.simulated = report.simulated;
+    status_.emulated = report.emulated;
+    status_.timing = report.timing;
+    status_.lensTemperature_C = report.lensTemperature_C;
+    status_.devices = report.devices;
     give();
 }
 

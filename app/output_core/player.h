@@ -2,12 +2,14 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "core/base/latest.h"
 #include "devices/link/messages.h"
@@ -31,14 +33,21 @@ struct Order {
 class Player {
 public:
     /// `changed` is called from the player's thread after each change of the status.
-    /// `afterFault`, if not empty, is told as the first fault: why the player before this one ended.
-    Player(std::unique_ptr<devices::Stage> stage, std::function<void()> changed, const std::string& afterFault = {});
+    /// `afterFault`, if not empty, is told as the first fault: why the player before this one ended. `limits`: what the
+    /// machine does not allow, for the status.
+    Player(std::unique_ptr<devices::Stage> stage, std::function<void()> changed, const std::string& afterFault = {},
+           std::vector<std::string> limits = {});
 
     /// The newest order wins; one that was not begun is dropped and counted.
     void play(Order order);
     void safeLight();
     /// The newest status since the last call, if there is one.
     std::optional<devices::Status> newStatus() { return given_.tryTake(); }
+    /// Begins the end, in safe light, which real devices take seconds for; the object may go once it `ended`.
+    void end() { thread_.request_stop(); }
+    bool ended() const { return ended_; }
+    /// How long its thread has been at one thing.
+    std::chrono::nanoseconds busyFor() const;
 
 private:
     void run(const std::stop_token& stop);
@@ -56,6 +65,8 @@ private:
     Latest<devices::Status> given_;
     std::atomic<std::uint64_t> safeLightsAsked_ = 0;
     std::atomic<std::uint64_t> replaced_ = 0;  ///< orders that a newer one replaced
+    std::atomic<std::int64_t> turned_ns_;      ///< when its thread last began something
+    std::atomic<bool> ended_ = false;
     // Of the player's thread alone:
     std::uint64_t safeLightsDone_ = 0;
     std::uint64_t lastHold_;

@@ -1,71 +1,84 @@
-#include <spdlog/spdlog.h>
 #include <sys/eventfd.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <memory>
 
+#include "app/output_core/events.h"
 #include "app/output_core/log.h"
 #include "app/output_core/player.h"
 #include "app/output_core/priority.h"
 #include "app/output_core/roles.h"
 #include "app/output_core/signals.h"
+#include "app/output_core/stage_mark.h"
+#include "app/output_core/stage_of.h"
 #include "app/output_core/studio_link.h"
 #include "devices/link/runtime_directory.h"
-#include "devices/simulated/device_client.h"
-#include "devices/simulated/simulated_stage.h"
 
 namespace ilf::app {
 namespace {
 
-/// The stage with the connection it plays over.
-class ConnectedStage : public devices::Stage {
-public:
-    explicit ConnectedStage(const std::filesystem::path& runtimeDirectory) : client_(runtimeDirectory) {}
-    Result<void> load(const Program& program) override { return stage_.load(program); }
-    Result<void> swap() override { return stage_.swap(); }
-    Result<void> heartbeat() override { return stage_.heartbeat(); }
-    void safeLight() noexcept override { stage_.safeLight(); }
-    devices::StageReport report() const override { return stage_.report(); }
-    std::string name() const override { return stage_.name(); }
+// No start, stop or search of a stage lasts this long: its thread hangs in a driver, and nobody watches over the light.
+constexpr std::chrono::seconds kHangs{30};
 
-private:
-    devices::DeviceClient client_;
-    devices::SimulatedStage stage_{client_};
-};
+bool isSafe(const devices::Status& status) {
+    return status.light == devices::LightMode::steady && status.lens == devices::LensMode::rest && status.lensWell;
+}
 
 }  // namespace
 
-int runPlayer(const std::filesystem::path& runtimeDirectory, const std::string& afterFault) {
+int runPlayer(const CoreSetup& setup, const std::string& afterFault) {
     const Signals signals{SIGTERM, SIGINT};
     prctl(PR_SET_NAME, "ilf-player");
     comeFirst();
     startLog("output-core-player");
-    const auto lock = devices::FileLock::tryTake(devices::playerLock(runtimeDirectory));
+    const auto lock = devices::FileLock::tryTake(devices::playerLock(setup.runtimeDirectory));
     if (!lock || !*lock) {
-        spdlog::error("{}", lock ? "another player runs in this runtime directory" : lock.error().what);
+        note(event::kPlayerTwice, lock ? "" : lock.error().what);
         return 3;
     }
-    auto server = devices::Server::open(devices::coreAddress(runtimeDirectory));
+    auto server = devices::Server::open(devices::coreAddress(setup.runtimeDirectory));
     if (!server) {
-        spdlog::error("{}", server.error().what);
+        note(event::kNoSocket, server.error().what);
         return 3;
     }
+    // Simulated devices have a process and a clock of their own.
+    const bool ownDevices = setup.played.machine != Machine::simulated;
+    const std::vector<std::string> limits = ownDevices ? keepTime() : std::vector<std::string>();
+    for (const auto& limit : limits)
+        note(event::kNotAllowed, limit);
+    if (ownDevices) markStage(setup.runtimeDirectory);
     const int wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    bool safe = false;
     {
-        Player player(
-            std::make_unique<ConnectedStage>(runtimeDirectory), [wake] { eventfd_write(wake, 1); }, afterFault);
+        auto stage = stageOf(setup.played, setup.runtimeDirectory);
+        note(event::kStage, stage->name());
+        Player player(std::move(stage), [wake] { eventfd_write(wake, 1); }, afterFault, limits);
         StudioLink link(*std::move(server), player);
-        spdlog::info("player started in safe light");
         while (signals.arrived(0).empty()) {
             link.turn(wake, signals.descriptor());
             eventfd_t count = 0;
             eventfd_read(wake, &count);
+            if (player.busyFor() > kHangs) {
+                note(event::kPlayerHangs);
+                _exit(1);
+            }
         }
+        // Others go on hearing how it is while a stage takes its time to become safe.
+        player.end();
+        while (!player.ended()) {
+            link.turn(wake, wake);
+            eventfd_t count = 0;
+            eventfd_read(wake, &count);
+        }
+        link.turn(wake, wake);
+        safe = isSafe(link.status());
     }
     close(wake);
-    spdlog::info("player stopped in safe light");
+    if (ownDevices && safe) unmarkStage(setup.runtimeDirectory);
+    note(safe ? event::kPlayerStopped : event::kNotSafe);
     return 0;
 }
 

@@ -32,11 +32,43 @@ const char* word(devices::LensMode lens) {
     return "";
 }
 
+const char* word(devices::DeviceHealth health) {
+    switch (health) {
+    case devices::DeviceHealth::well:
+        return "well";
+    case devices::DeviceHealth::absent:
+        return "absent";
+    case devices::DeviceHealth::unplugged:
+        return "unplugged";
+    case devices::DeviceHealth::wrongMode:
+        return "wrong-mode";
+    case devices::DeviceHealth::silent:
+        return "silent";
+    }
+    return "";
+}
+
+json written(const devices::StageTiming& timing) {
+    return {{"locked", timing.locked},
+            {"phase_us", timing.phase.in(1.0_us)},
+            {"jitter_us", timing.jitter.in(1.0_us)},
+            {"drift_ppm", timing.driftPpm},
+            {"missed_triggers", timing.missedTriggers}};
+}
+
+json written(const std::vector<devices::DeviceLine>& lines) {
+    json out = json::array();
+    for (const auto& one : lines)
+        out.push_back({{"what", one.what}, {"health", word(one.health)}, {"name", one.name}, {"line", one.line}});
+    return out;
+}
+
 json written(const devices::Status& s) {
     return {{"connected", s.connected},
             {"pid", s.pid},
             {"supervisor_pid", s.supervisorPid},
             {"simulated", s.simulated},
+            {"emulated", s.emulated},
             {"light", word(s.light)},
             {"safe_light_held", s.hold != 0},
             {"revision_played", s.revisionPlayed},
@@ -48,6 +80,12 @@ json written(const devices::Status& s) {
             {"sweep_D", {s.low.si(), s.high.si()}},
             {"projector", s.projectorLine},
             {"lens_line", s.lensLine},
+            {"lens_name", s.lensName},
+            {"lens_temperature_C", s.lensTemperature_C ? json(*s.lensTemperature_C) : json(nullptr)},
+            {"timing", s.timing ? written(*s.timing) : json(nullptr)},
+            {"devices", written(s.devices)},
+            {"limits", s.limits},
+            {"last_refusal", s.lastRefusal},
             {"fault", s.fault},
             {"faults", s.faults}};
 }

@@ -1,10 +1,16 @@
-// The output core goes before whatever else the machine does: light must not wait for a compile.
+// Lets the processes that keep the light go first on a busy machine.
 #pragma once
+
+#include <string>
+#include <vector>
 
 namespace ilf::app {
 
-/// Asks for a higher priority for this thread and those it starts. Needs a right that not every user has (CAP_SYS_NICE
-/// or RLIMIT_NICE); without it nothing changes.
+/// Ahead of ordinary programs, where that is allowed.
 void comeFirst();
+
+/// Real-time priority and memory that is never swapped out, for all of this process; call it before the first thread.
+/// What the machine does not allow comes back, one sentence each, with what would help.
+std::vector<std::string> keepTime();
 
 }  // namespace ilf::app

@@ -1,9 +1,8 @@
 #include "app/output_core/studio_link.h"
 
-#include <spdlog/spdlog.h>
-
 #include <utility>
 
+#include "app/output_core/events.h"
 #include "devices/link/program_update.h"
 #include "devices/link/runtime_directory.h"
 
@@ -25,9 +24,9 @@ void StudioLink::turn(int playerDescriptor, int stopDescriptor) {
     while (const auto incoming = server_->receive())
         handle(*incoming);
     if (auto status = player_.newStatus()) {
-        if (status->faults != status_.faults) spdlog::error("fault: {}", status->fault);
+        if (status->faults != status_.faults) note(event::kFault, status->fault);
         if (status->light != status_.light)
-            spdlog::info("light is {}", status->light == devices::LightMode::slotted ? "slotted" : "steady");
+            note(status->light == devices::LightMode::slotted ? event::kLightSlotted : event::kLightSteady);
         status_ = *std::move(status);
         publish();
     } else if (Clock::now() - published_ > kPublish) {
@@ -47,7 +46,7 @@ void StudioLink::publish() {
 void StudioLink::handle(const devices::Server::Incoming& incoming) {
     const bool isNew = studios_.insert_or_assign(incoming.client, Clock::now()).second;
     if (!incoming.message) {
-        spdlog::warn("{}", incoming.message.error().what);
+        note(event::kBadMessage, incoming.message.error().what);
         server_->send(incoming.client, {0, devices::Refused{incoming.message.error(), true}});
         return;
     }
@@ -55,10 +54,10 @@ void StudioLink::handle(const devices::Server::Incoming& incoming) {
     if (const auto* update = std::get_if<devices::ProgramUpdate>(&body)) {
         take(incoming.client, *update);
     } else if (std::holds_alternative<devices::SafeLight>(body)) {
-        spdlog::info("safe light was asked for");
+        note(event::kSafeLightAsked);
         player_.safeLight();
-    } else if (std::holds_alternative<devices::Hello>(body)) {
-        if (isNew) spdlog::info("a studio connected");
+    } else if (const auto* hello = std::get_if<devices::Hello>(&body)) {
+        if (isNew) note(event::kStudioConnected, hello->role);
         if (isNew && status_.pid != 0) server_->send(incoming.client, {0, status_});
     } else {
         const Error error{Fault::unsupported, "The output core does not know this message."};
@@ -69,7 +68,7 @@ void StudioLink::handle(const devices::Server::Incoming& incoming) {
 void StudioLink::take(const std::string& client, const devices::ProgramUpdate& update) {
     const std::int64_t received_ns = devices::monotonicNs();
     const auto refuse = [&](const Error& error, bool sendWhole) {
-        spdlog::warn("update {} refused: {}", update.revision, error.what);
+        note(event::kUpdateRefused, std::to_string(update.revision) + ": " + error.what);
         server_->send(client, {0, devices::Refused{error, sendWhole}});
     };
     auto program = devices::assembled(update, lastHash_ != 0 ? &last_ : nullptr, lastHash_);

@@ -18,6 +18,8 @@ public:
 
     /// Waits for messages, the player or `stopDescriptor`, and deals with what came.
     void turn(int playerDescriptor, int stopDescriptor);
+    /// As the player gave it last.
+    const devices::Status& status() const { return status_; }
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -1,6 +1,3 @@
-#include <fcntl.h>
-#include <spdlog/spdlog.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,15 +7,19 @@
 #include <cstdio>
 #include <optional>
 #include <string>
-#include <thread>
 
+#include "app/output_core/devices_keeper.h"
+#include "app/output_core/events.h"
+#include "app/output_core/guard_keeper.h"
 #include "app/output_core/log.h"
 #include "app/output_core/priority.h"
 #include "app/output_core/roles.h"
+#include "app/output_core/service_manager.h"
 #include "app/output_core/signals.h"
+#include "app/output_core/start_role.h"
+#include "app/output_core/wait.h"
+#include "devices/link/core_link.h"
 #include "devices/link/runtime_directory.h"
-#include "devices/link/start_core.h"
-#include "devices/simulated/device_client.h"
 
 namespace ilf::app {
 namespace {
@@ -26,39 +27,41 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// A simulated machine that vanished is switched on again after this long: time enough to see what its loss does.
-constexpr milliseconds kDevicesBack{1500};
 // A player that lived this long did not crash because it was started.
 constexpr std::chrono::seconds kGoodLife{5};
 // One that crashes again and again must not keep the machine busy, but an operator waits for no more than this.
 constexpr milliseconds kFirstDelay{20}, kLongestDelay{320};
-// An orderly stop: safe light takes a few calls, each with its time limit.
-constexpr milliseconds kStopTime{3000};
+// An orderly stop: safe light takes a few calls, each with its time limit. Real devices may be in the middle of a
+// start, which is not broken off: settling, patterns and locking take seconds.
+constexpr milliseconds kStopTime{3000}, kDeviceStopTime{15000};
+// What makes the stage safe in a player's place tries for this long.
+constexpr milliseconds kSafeTime{12000};
+// Whoever asks for a stop waits for all of it.
+constexpr milliseconds kWholeStop{40000};
 
-std::filesystem::path ownExecutable() { return std::filesystem::read_symlink("/proc/self/exe"); }
-
-template <class Condition>
-bool within(milliseconds time, Condition condition) {
-    const auto deadline = Clock::now() + time;
-    while (!condition()) {
-        if (Clock::now() > deadline) return false;
-        std::this_thread::sleep_for(milliseconds(5));
-    }
-    return true;
-}
+const char* const kPlayerEnded =
+    "The output core's player ended unexpectedly; the light is steady and the lens rests. TAKE plays again.";
+const char* const kRigAnew =
+    "The emulated rig ended and was started again; the light is steady and the lens rests. TAKE plays again.";
 
 class Supervisor {
 public:
-    Supervisor(const std::filesystem::path& directory, const Signals& signals, devices::SimulatedLens lens)
-        : directory_(directory), signals_(signals), lens_(lens), executable_(ownExecutable()), devices_(directory) {}
+    Supervisor(const CoreSetup& setup, const Signals& signals, ServiceManager& manager)
+        : setup_(setup), signals_(signals), manager_(manager), link_(setup.runtimeDirectory), devices_(setup_),
+          guard_(setup_) {}
 
+    /// Devices, what makes them safe, white below the player's window, player.
     void start() {
-        startDevices();
+        devices_.start();
         // A player may be left whose supervisor was killed a moment ago; it ends by itself, in safe light.
-        if (!within(kStopTime, [&] { return !devices::FileLock::holder(devices::playerLock(directory_)); }))
-            if (const auto pid = devices::FileLock::holder(devices::playerLock(directory_)); pid && *pid > 0)
+        const auto lock = devices::playerLock(setup_.runtimeDirectory);
+        if (!within(stopTime(), [&] { return !devices::FileLock::holder(lock); }))
+            if (const auto pid = devices::FileLock::holder(lock); pid && *pid > 0) {
+                note(event::kPlayerStuck, "process " + std::to_string(*pid));
                 kill(*pid, SIGKILL);
-        makeSafe();
+            }
+        devices_.makeSafe();
+        guard_.watch(devices_.environment());
         startPlayer();
     }
 
@@ -70,145 +73,142 @@ public:
             int status = 0;
             if (player_ && waitpid(*player_, &status, WNOHANG) == *player_) playerDied(status);
             if (!player_ && Clock::now() >= nextStart_) startPlayer();
-            watchDevices();
+            if (devices_.watch()) rigChanged();
+            guard_.watch(devices_.environment());
+            tellManager();
         }
     }
 
+    /// Player (in safe light), guard, devices: light goes last.
     void stop(bool leaveDevices) {
+        manager_.stopping();
         if (player_) {
             kill(*player_, SIGTERM);
-            if (!within(kStopTime, [&] { return waitpid(*player_, nullptr, WNOHANG) == *player_; })) {
+            if (!within(stopTime(), [&] { return waitpid(*player_, nullptr, WNOHANG) == *player_; })) {
+                note(event::kPlayerStuck, "process " + std::to_string(*player_));
                 kill(*player_, SIGKILL);
                 waitpid(*player_, nullptr, 0);
+                makeSafeInstead();
             }
         }
-        makeSafe();
+        devices_.makeSafe();
         if (leaveDevices) return;
-        const auto lock = devices::devicesLock(directory_);
-        if (const auto pid = devices::FileLock::holder(lock); pid && *pid > 0) {
-            kill(*pid, SIGTERM);
-            within(kStopTime, [&] { return !devices::FileLock::holder(lock); });
-        }
+        if (setup_.played.machine == Machine::emulated) guard_.stop();  // its display ends with the rig
+        devices_.stop();
     }
 
 private:
+    bool simulated() const { return setup_.played.machine == Machine::simulated; }
+    milliseconds stopTime() const { return simulated() ? kStopTime : kDeviceStopTime; }
+
     int untilNextStart() const {
         if (player_) return 100;
         const auto left = std::chrono::ceil<milliseconds>(nextStart_ - Clock::now());
-        return static_cast<int>(std::clamp(left.count(), std::chrono::milliseconds::rep{0}, milliseconds::rep{100}));
-    }
-
-    void makeSafe() {
-        if (const auto safe = devices_.safeLight(); !safe) spdlog::error("safe light failed: {}", safe.error().what);
-    }
-
-    void startDevices() {
-        if (devices::FileLock::holder(devices::devicesLock(directory_))) return;
-        const auto log = devices::stateDirectory() / "simulated-devices.out";
-        const auto started = devices::startDetached(
-            executable_,
-            {"--devices", "--runtime-dir", directory_.string(), "--simulated-lens", std::string(devices::word(lens_))},
-            log);
-        if (!started) spdlog::error("{}", started.error().what);
-        if (!within(milliseconds(3000), [&] { return devices_.readState().has_value(); }))
-            spdlog::error("the simulated devices do not answer; see {}", log.string());
-    }
-
-    void watchDevices() {
-        const auto now = Clock::now();
-        if (devices::FileLock::holder(devices::devicesLock(directory_))) {
-            devicesGone_.reset();
-        } else if (!devicesGone_) {
-            spdlog::error("the simulated devices are gone");
-            devicesGone_ = now;
-        } else if (now - *devicesGone_ > kDevicesBack) {
-            startDevices();
-        }
+        return static_cast<int>(std::clamp(left.count(), milliseconds::rep{0}, milliseconds::rep{100}));
     }
 
     void startPlayer() {
-        const pid_t self = getpid();
-        const std::string executable = executable_.string(), directory = directory_.string();
-        const pid_t child = fork();
-        if (child < 0) {
-            spdlog::error("no room for the player's process");
-            nextStart_ = Clock::now() + kLongestDelay;
-            return;
-        }
-        if (child == 0) {
-            // The player goes, in safe light, when this process is killed; also if that happened a moment ago.
-            prctl(PR_SET_PDEATHSIG, SIGTERM);
-            if (getppid() != self) _exit(1);
-            execl(executable.c_str(), executable.c_str(), "--player", "--runtime-dir", directory.c_str(),
-                  "--after-fault", afterFault_.c_str(), nullptr);
-            _exit(127);
-        }
-        player_ = child;
+        player_ = startChild(setup_, {"--player", "--after-fault", afterFault_}, devices_.environment());
         started_ = Clock::now();
-        spdlog::info("player started: process {}", child);
+        if (player_) {
+            note(event::kPlayerStarted, "process " + std::to_string(*player_));
+        } else {
+            note(event::kNoProcess);
+            nextStart_ = Clock::now() + kLongestDelay;
+        }
     }
 
+    /// Simulated devices are told here; others by the next player, whose first act is safe light, in a moment.
     void playerDied(int status) {
-        makeSafe();
+        devices_.makeSafe();
         player_.reset();
         const bool crashed = Clock::now() - started_ < kGoodLife;
         delay_ = crashed ? std::min(2 * std::max(delay_, kFirstDelay), kLongestDelay) : kFirstDelay;
         nextStart_ = Clock::now() + delay_;
-        afterFault_ = "The output core's player ended unexpectedly; the light is steady and the lens rests. TAKE plays "
-                      "again.";
-        if (WIFSIGNALED(status))
-            spdlog::error("the player was killed by signal {}; safe light; next start in {} ms", WTERMSIG(status),
-                          delay_.count());
-        else
-            spdlog::error("the player ended with {}; safe light; next start in {} ms", WEXITSTATUS(status),
-                          delay_.count());
+        afterFault_ = std::exchange(ended_, kPlayerEnded);
+        const std::string how = WIFSIGNALED(status) ? "killed by signal " + std::to_string(WTERMSIG(status))
+                                                    : "ended with " + std::to_string(WEXITSTATUS(status));
+        note(event::kPlayerDied, how + "; next start in " + std::to_string(delay_.count()) + " ms");
     }
 
-    std::filesystem::path directory_;
+    void rigChanged() {
+        note(event::kRigChanged);
+        ended_ = kRigAnew;
+        if (player_) kill(*player_, SIGTERM);
+    }
+
+    /// In the place of a player that had to be killed.
+    void makeSafeInstead() {
+        if (simulated()) return;
+        const auto child = startChild(setup_, {"--make-safe"}, devices_.environment());
+        if (!child) return note(event::kNoProcess);
+        if (within(kSafeTime, [&] { return waitpid(*child, nullptr, WNOHANG) == *child; })) return;
+        kill(*child, SIGKILL);
+        waitpid(*child, nullptr, 0);
+    }
+
+    void tellManager() {
+        if (!manager_.listens()) return;
+        link_.poll(milliseconds(0));
+        const auto& status = link_.status();
+        if (!status.connected) return manager_.status("The player does not answer.");
+        manager_.ready();
+        manager_.alive();
+        const bool slotted = status.light == devices::LightMode::slotted;
+        manager_.status(!status.fault.empty() ? status.fault
+                        : slotted             ? "Slotted light: a program plays."
+                                              : "Steady white light, lens at rest.");
+    }
+
+    const CoreSetup& setup_;
     const Signals& signals_;
-    devices::SimulatedLens lens_;
-    std::filesystem::path executable_;
-    devices::DeviceClient devices_;
+    ServiceManager& manager_;
+    devices::CoreLink link_;
+    DevicesKeeper devices_;
+    GuardKeeper guard_;
     std::optional<pid_t> player_;
     Clock::time_point started_, nextStart_;
     milliseconds delay_{0};
-    std::string afterFault_;  ///< what the next player tells the studio
-    std::optional<Clock::time_point> devicesGone_;
+    std::string ended_ = kPlayerEnded;  ///< why the player that runs will have ended, if it does
+    std::string afterFault_;            ///< what the next player tells the studio
 };
 
 }  // namespace
 
-int runSupervisor(const std::filesystem::path& runtimeDirectory, bool leaveDevices, devices::SimulatedLens lens) {
+int runSupervisor(const CoreSetup& setup, bool leaveDevices) {
+    ServiceManager manager;
     const Signals signals{SIGTERM, SIGINT, SIGCHLD};
     comeFirst();
     startLog("output-core");
-    const auto lock = devices::FileLock::tryTake(devices::supervisorLock(runtimeDirectory));
+    const auto lock = devices::FileLock::tryTake(devices::supervisorLock(setup.runtimeDirectory));
     if (!lock || !*lock) {
         const std::string why =
-            lock ? "An output core runs in \"" + runtimeDirectory.string() + "\" already." : lock.error().what;
+            lock ? "An output core runs in \"" + setup.runtimeDirectory.string() + "\" already." : lock.error().what;
         std::fprintf(stderr, "%s\n", why.c_str());
         return 3;
     }
-    spdlog::info("output core started in {}", runtimeDirectory.string());
-    Supervisor supervisor(runtimeDirectory, signals, lens);
+    note(event::kCoreStarted, "rig " + setup.played.word + ", in " + setup.runtimeDirectory.string());
+    Supervisor supervisor(setup, signals, manager);
     supervisor.start();
     supervisor.watch();
     supervisor.stop(leaveDevices);
-    spdlog::info("output core stopped");
+    note(event::kCoreStopped);
     return 0;
 }
 
-int stopSupervisor(const std::filesystem::path& runtimeDirectory) {
+int stopSupervisor(const std::filesystem::path& runtimeDirectory, bool releaseDisplay) {
     const auto lock = devices::supervisorLock(runtimeDirectory);
     const auto pid = devices::FileLock::holder(lock);
-    if (!pid || *pid <= 0) {
-        std::fprintf(stderr, "No output core runs in \"%s\".\n", runtimeDirectory.c_str());
-        return 3;
+    const bool runs = pid && *pid > 0;
+    if (runs) kill(*pid, SIGTERM);
+    if (runs && !within(kWholeStop, [&] { return !devices::FileLock::holder(lock); })) {
+        std::fprintf(stderr, "The output core (process %d) does not stop.\n", *pid);
+        return 1;
     }
-    kill(*pid, SIGTERM);
-    if (within(4 * kStopTime, [&] { return !devices::FileLock::holder(lock); })) return 0;
-    std::fprintf(stderr, "The output core (process %d) does not stop.\n", *pid);
-    return 1;
+    if (releaseDisplay) GuardKeeper::stopGuard(runtimeDirectory);
+    if (runs) return 0;
+    std::fprintf(stderr, "No output core runs in \"%s\".\n", runtimeDirectory.c_str());
+    return 3;
 }
 
 }  // namespace ilf::app

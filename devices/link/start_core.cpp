@@ -14,11 +14,12 @@
 namespace ilf::devices {
 namespace {
 
-// The core first waits for its devices; a loaded machine takes a while to start three processes.
-constexpr std::chrono::seconds kStartTime{5};
+// The core first waits for its devices; a loaded machine takes a while to start three processes, and an emulated rig a
+// display server more.
+constexpr std::chrono::seconds kStartTime{15};
 
 /// Between fork and exec: only calls that are safe in a child of a threaded process.
-[[noreturn]] void becomeDetached(const char* executable, char* const* arguments, const char* log) {
+[[noreturn]] void becomeDetached(char* const* arguments, char* const* environment, const char* log) {
     setsid();
     const pid_t child = fork();
     if (child != 0) _exit(child < 0 ? 1 : 0);
@@ -31,8 +32,17 @@ constexpr std::chrono::seconds kStartTime{5};
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
-    execv(executable, arguments);
+    execve(arguments[0], arguments, environment);
     _exit(127);
+}
+
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
+    std::vector<char*> out;
+    out.reserve(words.size() + 1);
+    for (auto& word : words)
+        out.push_back(word.data());
+    out.push_back(nullptr);
+    return out;
 }
 
 bool answers(CoreLink& link, std::chrono::steady_clock::time_point deadline) {
@@ -52,7 +62,7 @@ std::filesystem::path coreExecutable() {
 }
 
 Result<void> startDetached(const std::filesystem::path& executable, const std::vector<std::string>& arguments,
-                           const std::filesystem::path& log) {
+                           const std::filesystem::path& log, const std::map<std::string, std::string>& environment) {
     if (access(executable.c_str(), X_OK) != 0)
         return fail(Fault::notFound, "\"" + executable.string() +
                                          "\" is not there or cannot be run; build or install it beside the studio.");
@@ -60,18 +70,26 @@ Result<void> startDetached(const std::filesystem::path& executable, const std::v
     std::filesystem::create_directories(log.parent_path(), ignored);
     std::vector<std::string> words{executable.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    argv.reserve(words.size() + 1);
-    for (auto& word : words)
-        argv.push_back(word.data());
-    argv.push_back(nullptr);
+    std::vector<std::string> variables = environmentWith(environment);
+    const std::vector<char*> argv = pointersTo(words), settings = pointersTo(variables);
     const pid_t child = fork();
     if (child < 0)
         return fail(Fault::device, "The output core cannot be started: the system has no room for a process.");
-    if (child == 0) becomeDetached(argv[0], argv.data(), log.c_str());
+    if (child == 0) becomeDetached(argv.data(), settings.data(), log.c_str());
     int status = 0;
     waitpid(child, &status, 0);
     return {};
+}
+
+std::vector<std::string> environmentWith(const std::map<std::string, std::string>& changed) {
+    std::vector<std::string> variables;
+    for (char** one = environ; *one != nullptr; ++one) {
+        const std::string variable(*one);
+        if (!changed.contains(variable.substr(0, variable.find('=')))) variables.push_back(variable);
+    }
+    for (const auto& [name, value] : changed)
+        variables.push_back(name + "=" + value);
+    return variables;
 }
 
 Result<void> ensureCoreRunning(const std::filesystem::path& executable, const std::filesystem::path& runtimeDirectory,

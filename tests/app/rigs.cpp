@@ -21,9 +21,10 @@ TEST_CASE("rigs: the emulated one is a rig like any other, and says that it is s
 }
 
 TEST_CASE("rigs: the emulated lens comes to rest where the emulated rig says") {
-    for (const StaticPower& one : emulatedRig().devices->left.powers) {
+    const LensWiring wiring = emulatedRig().devices->left;
+    for (const StaticPower& one : wiring.powers) {
         devices::LensEmulator lens(devices::lensParameters(devices::LensPreset::datasheet));
-        const double drive_V = one.current.si() * emulatedRig().devices->left.amplifier.input.si();
+        const double drive_V = one.current.si() * wiring.amplifier.input.si();
         lens.play(Harmonics{{drive_V}}, 60.0_Hz);
         lens.warmUp();
         lens.advance(0.5_s);

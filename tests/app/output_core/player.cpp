@@ -187,4 +187,75 @@ TEST_CASE("player: says why the one before it ended, and waits for a take") {
     CHECK(status->light == LightMode::steady);
 }
 
+namespace {
+
+/// Real devices that take their time, as a projector that is silent does.
+class SlowStage : public devices::VirtualStage {
+public:
+    explicit SlowStage(std::atomic<bool>& wait) : wait_(wait) {}
+    Result<void> swap() override {
+        waited();
+        return VirtualStage::swap();
+    }
+    void safeLight() noexcept override {
+        waited();
+        VirtualStage::safeLight();
+    }
+    devices::StageReport report() const override {
+        auto report = VirtualStage::report();
+        report.emulated = true;
+        report.timing = devices::StageTiming{true, 20.0_us, 5.0_us, 12.0, 3};
+        report.lensTemperature_C = 31.5;
+        report.devices = {{"projector", devices::DeviceHealth::well, "board", "six slots"}};
+        return report;
+    }
+
+private:
+    void waited() const {
+        while (wait_)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    std::atomic<bool>& wait_;
+};
+
+}  // namespace
+
+TEST_CASE("player: passes on what the stage measured and what the machine does not allow") {
+    std::atomic<bool> wait = false;
+    Scene scene;
+    scene.player.emplace(std::make_unique<SlowStage>(wait), [] {}, "", std::vector<std::string>{"No real time."});
+    REQUIRE(scene.until([](const Status& s) { return s.projectorWell; }));
+    CHECK(scene.newest.emulated);
+    CHECK(scene.newest.timing->missedTriggers == 3);
+    CHECK(scene.newest.lensTemperature_C == 31.5);
+    CHECK(scene.newest.devices.at(0).line == "six slots");
+    CHECK(scene.newest.limits == std::vector<std::string>{"No real time."});
+}
+
+TEST_CASE("player: a stage that takes its time keeps nobody from asking, and its end is waited for") {
+    std::atomic<bool> wait = true;
+    Player player(std::make_unique<SlowStage>(wait), [] {});
+    // Said before the first safe light is reached.
+    std::optional<Status> first;
+    for (int i = 0; i < 2000 && !first; ++i) {
+        first = player.newStatus();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    REQUIRE(first);
+    CHECK(first->hold != 0);
+    const auto busy = player.busyFor();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK(player.busyFor() >= busy + std::chrono::milliseconds(15));
+    player.end();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK_FALSE(player.ended());
+    wait = false;
+    for (int i = 0; i < 5000 && !player.ended(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    CHECK(player.ended());
+    const auto last = player.newStatus();
+    REQUIRE(last);
+    CHECK(last->light == LightMode::steady);
+}
+
 }  // namespace ilf::app

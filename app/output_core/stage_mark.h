@@ -1,0 +1,17 @@
+// A mark in the runtime directory while a stage may be anything but safe, so that others can see to it.
+#pragma once
+
+#include <filesystem>
+
+namespace ilf::app {
+
+/// Set by a player before it first touches a real (or emulated) stage, taken away once that is safe and left alone. A
+/// player that is killed leaves it behind.
+void markStage(const std::filesystem::path& runtimeDirectory);
+void unmarkStage(const std::filesystem::path& runtimeDirectory);
+bool stageIsMarked(const std::filesystem::path& runtimeDirectory);
+
+/// Held by the white guard.
+std::filesystem::path guardLock(const std::filesystem::path& runtimeDirectory);
+
+}  // namespace ilf::app
