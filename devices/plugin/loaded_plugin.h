@@ -141,4 +141,8 @@ private:
     ilf_status last_{};
 };
 
+/// Loads the plugin `file` (once; later it is there already) and opens its projector: what a rig's fields are for.
+Result<std::unique_ptr<PluginProjector>> openedPlugin(const std::filesystem::path& file, const std::string& place,
+                                                      const std::string& options, Clock clock = Clock::steady());
+
 }  // namespace ilf::devices

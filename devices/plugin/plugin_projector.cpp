@@ -240,4 +240,11 @@ Result<PluginStatus> PluginProjector::status() {
     return status;
 }
 
+Result<std::unique_ptr<PluginProjector>> openedPlugin(const std::filesystem::path& file, const std::string& place,
+                                                      const std::string& options, Clock clock) {
+    const auto plugin = ProjectorPlugin::load(file);
+    if (!plugin) return tl::unexpected(plugin.error());
+    return PluginProjector::open(*plugin, place, options, std::move(clock));
+}
+
 }  // namespace ilf::devices

@@ -1,5 +1,5 @@
 /* A projector that is not there, as a plugin: the example of how to write one, and what tests play on. It keeps the
- * pictures in memory, counts frames by the clock, and fails on demand.
+ * pictures in memory, counts frames by the clock, and fails on demand (loopback_faults.c).
  *
  * Options (in `open`'s text, and before that in the environment's ILF_LOOPBACK_PROJECTOR), separated by commas:
  *   size=WIDTHxHEIGHT   its raster; without: 1024x768
@@ -13,164 +13,15 @@
  *   ppm=N               its clock is that much faster than it should be
  *   hot=1, dark=1       too hot; its light source failed
  */
-#define _POSIX_C_SOURCE 200809L
-#include "devices/plugin/loopback/loopback_projector.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-#include "devices/plugin/illuminatedfocus_projector.h"
+#include "devices/plugin/loopback/loopback_machine.h"
 
-enum { MOST_SLOTS = 256, MOST_PIXELS_A_SIDE = 16384 };
 static const double SLOWEST_HZ = 1.0, FASTEST_8_BIT_HZ = 1000.0, FASTEST_1_BIT_HZ = 8000.0;
 
-typedef struct buffer {
-    uint8_t* slot[MOST_SLOTS]; /* null: no picture */
-} buffer;
-
-typedef struct faults {
-    char refused[24], slowed[24];
-    long refuse_at, gone_at, slow_ms, drop_every, underrun_every, lose_every, ppm;
-    int stuck, hot, dark;
-    long calls, refusable; /* since they were set */
-} faults;
-
-struct ilf_projector {
-    int open, playing, configured, triggers_gone;
-    uint32_t width, height;
-    ilf_configuration how;
-    buffer front, back;
-    int front_whole;
-    uint64_t program;
-    uint64_t started_ns, counted_frames, counted_sweeps; /* of this start */
-    uint64_t frames_in, frames_out, underruns, triggers_lost;
-    uint64_t drop_phase, underrun_phase, lose_phase;
-};
-
-static ilf_projector the;
-static faults wrong;
-static int manual;
-static uint64_t manual_ns;
-static ilf_loopback_judge judge;
-static void* judge_user;
-
-/* ---- time ---- */
-
-static uint64_t now_ns(void) {
-    struct timespec t;
-    if (manual) return manual_ns;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
-}
-
-static void wait_ns(uint64_t ns) {
-    struct timespec t;
-    if (manual) {
-        manual_ns += ns;
-        return;
-    }
-    t.tv_sec = (time_t)(ns / 1000000000u);
-    t.tv_nsec = (long)(ns % 1000000000u);
-    nanosleep(&t, NULL);
-}
-
-/* ---- options and faults ---- */
-
-static int number_after(const char* text, const char* key, long* value) {
-    char* end = NULL;
-    const size_t n = strlen(key);
-    if (strncmp(text, key, n) != 0) return 0;
-    *value = strtol(text + n, &end, 10);
-    return end != text + n && *end == '\0';
-}
-
-/* "refuse=swap:3" */
-static int call_after(const char* text, const char* key, char call[24], long* value) {
-    const size_t n = strlen(key);
-    const char* colon = strchr(text, ':');
-    if (strncmp(text, key, n) != 0 || colon == NULL || (size_t)(colon - text) - n >= 24) return 0;
-    memset(call, 0, 24);
-    memcpy(call, text + n, (size_t)(colon - text) - n);
-    return number_after(colon, ":", value);
-}
-
-static int size_after(const char* text, uint32_t* width, uint32_t* height) {
-    unsigned w = 0, h = 0;
-    char rest = 0;
-    if (sscanf(text, "size=%5ux%5u%c", &w, &h, &rest) != 2) return 0;
-    if (w < 1 || h < 1 || w > MOST_PIXELS_A_SIDE || h > MOST_PIXELS_A_SIDE) return 0;
-    *width = w;
-    *height = h;
-    return 1;
-}
-
-/* 0 if it is not understood. */
-static int one_option(const char* text, faults* f, uint32_t* width, uint32_t* height) {
-    long on = 0;
-    if (call_after(text, "refuse=", f->refused, &f->refuse_at)) return f->refuse_at > 0;
-    if (call_after(text, "slow=", f->slowed, &f->slow_ms)) return f->slow_ms >= 0;
-    if (number_after(text, "gone=", &f->gone_at)) return f->gone_at > 0;
-    if (number_after(text, "drop=", &f->drop_every)) return f->drop_every > 0;
-    if (number_after(text, "underrun=", &f->underrun_every)) return f->underrun_every > 0;
-    if (number_after(text, "lose_trigger=", &f->lose_every)) return f->lose_every > 0;
-    if (number_after(text, "ppm=", &f->ppm)) return f->ppm > -100000 && f->ppm < 100000;
-    if (number_after(text, "stuck=", &on)) return (f->stuck = on != 0), 1;
-    if (number_after(text, "hot=", &on)) return (f->hot = on != 0), 1;
-    if (number_after(text, "dark=", &on)) return (f->dark = on != 0), 1;
-    return width != NULL && size_after(text, width, height);
-}
-
-static int all_options(const char* text, faults* f, uint32_t* width, uint32_t* height) {
-    char one[64];
-    while (text != NULL && *text != '\0') {
-        const size_t n = strcspn(text, ",");
-        if (n >= sizeof one) return 0;
-        memcpy(one, text, n);
-        one[n] = '\0';
-        if (n > 0 && !one_option(one, f, width, height)) return 0;
-        text += n;
-        if (*text == ',') ++text;
-    }
-    return 1;
-}
-
-/* ---- every call begins and ends with these ---- */
-
-static ilf_code said(ilf_code code, ilf_message* message, const char* text) {
-    snprintf(message->text, sizeof message->text, "%s", text);
-    return code;
-}
-
-typedef enum fate { GOES, FAILS, FAILS_AFTERWARDS, IS_GONE } fate;
-
-static fate begun(const char* call) {
-    int judged = 0;
-    if (judge != NULL) judged = judge(call, judge_user);
-    ++wrong.calls;
-    if (wrong.slow_ms > 0 && strcmp(wrong.slowed, call) == 0) wait_ns((uint64_t)wrong.slow_ms * 1000000u);
-    if (wrong.gone_at > 0 && wrong.calls >= wrong.gone_at) {
-        the.playing = 0; /* without power it shows nothing; with power again, white */
-        return IS_GONE;
-    }
-    if (wrong.refuse_at > 0 && (strcmp(wrong.refused, call) == 0 || strcmp(wrong.refused, "any") == 0) &&
-        ++wrong.refusable == wrong.refuse_at)
-        return FAILS;
-    return judged == 0 ? GOES : judged == 1 ? FAILS : FAILS_AFTERWARDS;
-}
-
-static ilf_code no(fate f, const char* call, ilf_message* message) {
-    if (f == IS_GONE) return said(ILF_ABSENT, message, "The loopback projector is unplugged.");
-    snprintf(message->text, sizeof message->text, "It failed (%s).", call);
-    return ILF_FAILED;
-}
-
-static ilf_code done(fate f, const char* call, ilf_message* message) {
-    return f == FAILS_AFTERWARDS ? no(f, call, message) : ILF_OK;
-}
-
-/* ---- buffers, sweeps, counters ---- */
+ilf_projector the;
 
 static void emptied(buffer* b) {
     int i;
@@ -195,7 +46,7 @@ static uint64_t happened(uint64_t times, long every, uint64_t* phase) {
     return n;
 }
 
-static void white(void) {
+void white(void) {
     the.playing = 0;
     the.program = 0;
     the.front_whole = 0;
@@ -203,9 +54,9 @@ static void white(void) {
     emptied(&the.back);
 }
 
-static void counted(void) {
+void counted(void) {
     uint64_t frames, sweeps, lost, late, dropped;
-    if (!the.playing) return;
+    if (!the.playing || frames_since_start() < the.counted_frames) return; /* its clock was slowed down */
     frames = frames_since_start() - the.counted_frames;
     the.counted_frames += frames;
     sweeps = the.counted_frames / the.how.slots - the.counted_sweeps;
@@ -228,8 +79,6 @@ static void counted(void) {
     }
 }
 
-/* ---- the calls ---- */
-
 static ilf_code list(ilf_place* places, uint32_t capacity, uint32_t* count, ilf_message* message) {
     const fate f = begun("list");
     if (f == FAILS) return no(f, "list", message);
@@ -242,7 +91,7 @@ static ilf_code list(ilf_place* places, uint32_t capacity, uint32_t* count, ilf_
 }
 
 static ilf_code open_it(const char* place, const char* options, ilf_projector** projector, ilf_message* message) {
-    faults asked = wrong;
+    faults asked;
     uint32_t width = 1024, height = 768;
     const fate f = begun("open");
     *projector = NULL;
@@ -250,10 +99,9 @@ static ilf_code open_it(const char* place, const char* options, ilf_projector** 
     if (*place != '\0' && strcmp(place, "loopback") != 0)
         return said(ILF_ABSENT, message, "There is no such projector; the only one is called \"loopback\".");
     if (the.open) return said(ILF_BUSY, message, "The loopback projector is open already.");
-    asked.calls = wrong.calls;
-    asked.refusable = wrong.refusable;
-    if (!all_options(getenv("ILF_LOOPBACK_PROJECTOR"), &asked, &width, &height) ||
-        !all_options(options, &asked, &width, &height))
+    asked = wrong;
+    if (!understood(getenv("ILF_LOOPBACK_PROJECTOR"), &asked, &width, &height) ||
+        !understood(options, &asked, &width, &height))
         return said(ILF_REFUSED, message,
                     "The options are not understood; write for instance \"size=1024x768,drop=100\".");
     memset(&the, 0, sizeof the);
@@ -409,62 +257,3 @@ const ilf_projector_plugin_v1* ilf_projector_plugin(uint32_t host_version) {
                                                   start,        stop,     steady_white, status};
     return host_version >= 1 ? &table : NULL;
 }
-
-/* ---- for tests ---- */
-
-static void hook_reset(void) {
-    white();
-    memset(&the, 0, sizeof the);
-    memset(&wrong, 0, sizeof wrong);
-    judge = NULL;
-    manual = 1;
-    manual_ns = 0;
-}
-
-static int hook_faults(const char* options) {
-    faults f;
-    memset(&f, 0, sizeof f);
-    if (!all_options(options, &f, NULL, NULL)) return 0;
-    counted();
-    wrong = f;
-    return 1;
-}
-
-static void hook_judge(ilf_loopback_judge how, void* user) {
-    judge = how;
-    judge_user = user;
-}
-
-static int full_light(uint32_t slot) {
-    const size_t n = (size_t)the.width * the.height;
-    size_t i;
-    for (i = 0; i < n; ++i)
-        if (the.front.slot[slot][i] != (the.how.bits == 8 ? 255 : 128)) return 0;
-    return 1;
-}
-
-static int hook_slotted(void) {
-    uint32_t i;
-    if (!the.playing) return 0;
-    for (i = 0; i < the.how.slots; ++i)
-        if (!full_light(i)) return 1;
-    return 0;
-}
-
-static int hook_light(uint32_t slot, uint8_t* pixels, uint64_t bytes) {
-    const uint64_t n = (uint64_t)the.width * the.height;
-    if (bytes != n || (the.playing && slot >= the.how.slots)) return 0;
-    if (the.playing)
-        memcpy(pixels, the.front.slot[slot], (size_t)n);
-    else
-        memset(pixels, 255, (size_t)n);
-    return 1;
-}
-
-static ilf_projector* hook_opened(void) { return the.open ? &the : NULL; }
-static uint32_t hook_slots(void) { return the.playing ? the.how.slots : 0; }
-static double hook_rate(void) { return the.playing ? the.how.slot_rate_hz : 0.0; }
-
-ILF_PLUGIN_EXPORT extern const ilf_loopback_hooks ilf_loopback;
-const ilf_loopback_hooks ilf_loopback = {hook_reset, now_ns,       wait_ns,     hook_faults, hook_judge,
-                                         hook_light, hook_slotted, hook_opened, hook_slots,  hook_rate};

@@ -15,8 +15,9 @@ typedef int (*ilf_loopback_judge)(const char* call, void* user);
 
 /// A table of this name (ILF_LOOPBACK_HOOKS) is exported beside the plugin's entry.
 typedef struct ilf_loopback_hooks {
-    /// From now on time stands still, at 0 ns, unless `advance_ns` or a call's waiting moves it. No faults, no judge.
-    void (*reset_with_manual_clock)(void);
+    /// Forgets everything: closed, no faults, no judge. With `manual_clock` time stands still, at 0 ns, unless
+    /// `advance_ns` or a call's waiting moves it.
+    void (*reset)(int manual_clock);
     uint64_t (*now_ns)(void);
     void (*advance_ns)(uint64_t by);
     /// Faults as in `open`'s options, from now on; empty: none. 0 if they are not understood.

@@ -126,6 +126,21 @@ TEST_CASE("loopback plugin: frames are counted by the clock, and what was not sh
     CHECK(projector->status()->state == PluginStatus::State::white);
 }
 
+TEST_CASE("loopback plugin: by the machine's clock it plays as fast as it should") {
+    const Loopback loopback(true);
+    const auto projector = playing(loopback);
+    const auto begun = std::chrono::steady_clock::now();
+    REQUIRE(uploaded(*projector, whiteSlots({8, 4}, 16, 8)));
+    REQUIRE(projector->swap(2));  // waits for the next sweep
+    const auto status = projector->status();
+    REQUIRE(status);
+    CHECK(status->program == 2);
+    CHECK(status->sent >= 16);
+    const double passed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    // Started a little before `begun`: that little is less than a second on any machine.
+    CHECK(static_cast<double>(status->sent) <= 960.0 * (passed_s + 1.0));
+}
+
 TEST_CASE("loopback plugin: without triggers from outside it goes to white by itself, and says so") {
     const Loopback loopback;
     const auto projector = playing(loopback, PluginTrigger::eachSweep);

@@ -34,7 +34,7 @@ inline const ilf_loopback_hooks& loopbackHooks() {
 /// A loopback projector nobody has opened yet, without faults, at 0 ns.
 class Loopback {
 public:
-    Loopback() { hooks_.reset_with_manual_clock(); }
+    explicit Loopback(bool realClock = false) { hooks_.reset(realClock ? 0 : 1); }
     ~Loopback() { hooks_.set_judge(nullptr, nullptr); }
     Loopback(const Loopback&) = delete;
     Loopback& operator=(const Loopback&) = delete;
@@ -194,7 +194,7 @@ inline devices::PluginRig LoopbackRig::made() {
     devices::PluginRig rig;
     rig.openProjector = [this]() -> Result<std::unique_ptr<devices::PluginProjector>> {
         if (projectorGone) return fail(Fault::notFound, "There is no projector.");
-        return loopback.open("size=8x4");
+        return devices::openedPlugin(loopbackFile(), "loopback", "size=8x4", loopback.clock());
     };
     rig.openLens = [this](Dioptre rest) -> Result<std::unique_ptr<devices::StageLens>> {
         if (lensGone) return fail(Fault::notFound, "There are no lenses.");

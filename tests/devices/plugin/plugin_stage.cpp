@@ -57,7 +57,8 @@ TEST_CASE("plugin stage: a start is steady white, the sweep, white slots, then t
     const auto report = rig.stage.report();
     CHECK(report.light == LightMode::slotted);
     CHECK(report.well);
-    CHECK(report.projectorLine == "Loopback projector (makes no light): 16 slots a sweep at 960.00 slots a second");
+    CHECK(report.projectorLine ==
+          "Loopback projector (makes no light) at loopback: 16 slots a sweep at 960.00 slots a second");
     REQUIRE(report.devices.size() == 2);
     CHECK(report.devices[0].health == DeviceHealth::well);
     CHECK(rig.violations == Calls{});
@@ -65,7 +66,7 @@ TEST_CASE("plugin stage: a start is steady white, the sweep, white slots, then t
     rig.stage.safeLight();
     CHECK(rig.orders() == Calls{"projector: steady_white", "lens: safe"});
     CHECK(rig.safe());
-    CHECK(rig.stage.report().projectorLine == "Loopback projector (makes no light): steady white");
+    CHECK(rig.stage.report().projectorLine == "Loopback projector (makes no light) at loopback: steady white");
     CHECK(rig.stage.report().lens == LensMode::rest);
     REQUIRE(rig.stage.heartbeat());
 }
@@ -194,10 +195,9 @@ TEST_CASE("plugin stage: every fault of a show ends in safe light, with one sent
         rig.stage.safeLight();
         CHECK(rig.safe());
         CHECK(rig.stage.report().well);
-        CHECK(
-            rig.stage.report().projectorLine ==
-            "Loopback projector (makes no light): steady white; loopback 1 (loopback_projector.so) took 0.70 s to show "
-            "steady white, where 0.50 s are allowed.");
+        CHECK(rig.stage.report().projectorLine == "Loopback projector (makes no light) at loopback: steady white; "
+                                                  "loopback 1 (loopback_projector.so) took 0.70 s to show "
+                                                  "steady white, where 0.50 s are allowed.");
     }
     SUBCASE("phase, lock, temperature, a lens that stopped") {
         SUBCASE("phase") { rig.phaseError = 230.0_us; }
@@ -237,14 +237,15 @@ TEST_CASE("plugin stage: what does not fit the projector is refused before the l
         CHECK(rig.safe());
         return shown ? "nothing" : shown.error().what;
     };
-    CHECK(refused(test::program(1, 2.27_D, {16, 4})) ==
-          "The program is for 16x4 pixels, Loopback projector (makes no light) has 8x4; set the rig's projector to "
-          "that.");
+    CHECK(refused(test::program(1, 2.27_D, {16, 4})) == "The program is for 16x4 pixels, Loopback projector (makes no "
+                                                        "light) at loopback has 8x4; set the rig's projector to "
+                                                        "that.");
     auto fast = program(1);
     fast.slotRate = 1020.0_Hz;
     fast.imageOfSlot.push_back(0);
-    CHECK(refused(fast) == "Loopback projector (makes no light) shows pictures of 8 bits at 1 to 1000 Hz, not at 1020 "
-                           "Hz; change the rig to what it can do.");
+    CHECK(refused(fast) ==
+          "Loopback projector (makes no light) at loopback shows pictures of 8 bits at 1 to 1000 Hz, not at 1020 "
+          "Hz; change the rig to what it can do.");
     CHECK(rig.stage.swap().error().what == "Nothing is loaded that could be put on show.");
     rig.locks = false;
     const auto unlocked = rig.played(program(1));
