@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstring>
 #include <map>
 #include <string>
 
@@ -25,17 +26,22 @@ const Box<Tile>& slotTile(const Program& program, std::size_t slot, int column, 
     return program.images[static_cast<std::size_t>(image)].tile(column, row);
 }
 
-/// Codes into planes `planes.first` upwards; they may lie across two colours.
+constexpr std::uint64_t everyByte(unsigned value) { return 0x0101010101010101U * std::uint64_t{value & 0xFFU}; }
+
+/// Codes into planes `planes.first` upwards; they may lie across two colours. Eight pixels at once: shifts of single
+/// bytes would be widened to 32 bits each.
 void addPlanes(const std::array<std::uint8_t, kTilePixels>& codes, Planes planes, ColourTile& to) {
     for (int colour = planes.first / 8; colour * 8 < planes.first + planes.count; ++colour) {
         std::uint8_t* const bytes = to.colour[static_cast<std::size_t>(colour)].data();
         const int shift = planes.first - 8 * colour;
-        if (shift >= 0)
-            for (std::size_t i = 0; i < kTilePixels; ++i)
-                bytes[i] = static_cast<std::uint8_t>(bytes[i] | codes[i] << shift);
-        else
-            for (std::size_t i = 0; i < kTilePixels; ++i)
-                bytes[i] = static_cast<std::uint8_t>(bytes[i] | codes[i] >> -shift);
+        const std::uint64_t kept = everyByte(shift >= 0 ? 0xFFU << shift : 0xFFU >> -shift);
+        for (std::size_t i = 0; i < kTilePixels; i += 8) {
+            std::uint64_t code = 0, old = 0;
+            std::memcpy(&code, codes.data() + i, 8);
+            std::memcpy(&old, bytes + i, 8);
+            old |= (shift >= 0 ? code << shift : code >> -shift) & kept;
+            std::memcpy(bytes + i, &old, 8);
+        }
     }
 }
 
@@ -45,8 +51,14 @@ void packTile(const Program& program, int depth, int column, int row, VideoPictu
     for (std::size_t slot = 0; slot < program.imageOfSlot.size(); ++slot) {
         const Box<Tile>& light = slotTile(program, slot, column, row);
         if (light.same(uniformTile(0))) continue;
+        const Planes planes = planesOf(depth, static_cast<int>(slot));
+        if (depth == 1) {
+            addLitPixels(*light, static_cast<std::uint8_t>(1 << planes.first % 8),
+                         tile.colour[static_cast<std::size_t>(planes.first / 8)].data());
+            continue;
+        }
         tileCodes(*light, depth, codes.data());
-        addPlanes(codes, planesOf(depth, static_cast<int>(slot)), tile);
+        addPlanes(codes, planes, tile);
     }
     const int width = std::min(kTile, picture.size.width - column * kTile);
     const int height = std::min(kTile, picture.size.height - row * kTile);

@@ -37,6 +37,9 @@ constexpr int codeOf(std::uint8_t value, int depth, int x, int y) {
 /// The codes of a whole tile; its corner lies on a multiple of 8, as all tiles' do. `to` holds kTile * kTile.
 void tileCodes(const Tile& tile, int depth, std::uint8_t* to);
 
+/// The same at one bit, for packing: pixels that are lit get the bits of `plane` besides what `to` holds.
+void addLitPixels(const Tile& tile, std::uint8_t plane, std::uint8_t* to);
+
 /// The light a projector of `depth` bits shows for `image`: codeOf / fullCode of full light, again as 8 bits. Where
 /// fullCode does not divide 255 (3, 5, 6 and 7 bits), writing it as 8 bits rounds by at most 1/510 of full light; the
 /// bounds of codeOf hold for the light itself.

@@ -217,8 +217,7 @@ Result<LensDriverState> LensDriver::readBack() {
         return fail(Fault::device, "The driver of the " + setup_.name + " says that " + milliamperes(state.current) +
                                        " flow instead of " + milliamperes(currentOf(code_, facts_.most)) +
                                        ". Connect it again; if this comes back, check lens and cable.");
-    const Ampere step = currentOf(2, facts_.most);
-    if (state.current > facts_.limits.high + step || state.current < facts_.limits.low - step)
+    if (!allowed(state.current))
         return fail(Fault::unsafe, "The driver of the " + setup_.name + " drives " + milliamperes(state.current) +
                                        ", more than the rig allows. Choose a smaller power, or check the rig's limit.");
     if (mode_ == Mode::sine) {
@@ -327,6 +326,11 @@ Result<void> LensDriver::switched(Mode mode) {
 
 int LensDriver::codeFor(Ampere current) const {
     return facts_.most > Ampere() ? lens_driver::codeOf(clamped(current, facts_.limits), facts_.most) : 0;
+}
+
+bool LensDriver::allowed(Ampere flowing) const {
+    const Ampere step = lens_driver::currentOf(2, facts_.most);
+    return flowing <= facts_.limits.high + step && flowing >= facts_.limits.low - step;
 }
 
 Result<void> LensDriver::sendCurrent(Ampere current) {

@@ -33,10 +33,11 @@ struct LensSetup {
 struct LensDriverFacts {
     char firmwareType = 0;
     lens_driver::Version version;
-    std::string lensSerial;                         ///< empty: the lens has no memory
-    Ampere most;                                    ///< what full scale is
-    CurrentLimits limits;                           ///< what it will be driven with at most
-    std::optional<lens_driver::PowerRange> powers;  ///< none: no focal power mode, or no resting power was asked for
+    std::string lensSerial;  ///< empty: the lens has no memory
+    Ampere most;             ///< what full scale is
+    CurrentLimits limits;    ///< what it will be driven with at most
+    /// None: no focal power mode, no resting power was asked for, or holding it takes more current than is allowed.
+    std::optional<lens_driver::PowerRange> powers;
 };
 
 /// What the last heartbeat read.
@@ -95,9 +96,11 @@ private:
     void discarded(Milliseconds quiet);
     Result<void> switched(lens_driver::Mode mode);
     int codeFor(Ampere current) const;  ///< clamped
+    bool allowed(Ampere flowing) const;
     Result<void> sendCurrent(Ampere current);
     Result<void> sendPower(Dioptre power);
 
+    Result<void> currentAllowed();
     Result<void> restedByPower();
     Result<void> restedByCurrent();
     /// Sends the lens to rest because of `error`, which it gives back.

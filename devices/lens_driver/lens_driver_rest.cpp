@@ -36,6 +36,18 @@ Result<void> LensDriver::rest() {
     return rested;
 }
 
+/// What current a focal power takes is the driver's own affair, so only reading it back tells whether it is allowed. If
+/// not, the lens rests by current from then on.
+Result<void> LensDriver::currentAllowed() {
+    const auto code = asked(lens_driver::readCurrent(), kAnswerAtRest).and_then(lens_driver::codeFrom);
+    if (!code) return tl::unexpected(code.error());
+    if (allowed(lens_driver::currentOf(*code, facts_.most))) return {};
+    facts_.powers.reset();
+    return fail(Fault::unsafe, "The resting power of the " + setup_.name +
+                                   " takes more current than the rig allows. Choose a smaller one, or check the "
+                                   "rig's limit.");
+}
+
 Result<void> LensDriver::restedByPower() {
     if (mode_ != Mode::focalPower) {
         if (auto still = restedByCurrent(); !still) return still;
@@ -48,6 +60,7 @@ Result<void> LensDriver::restedByPower() {
     const Dioptre from = power_, target = *setup_.restPower;
     for (int step = from == target ? kSteps : 1; step <= kSteps; ++step) {
         auto sent = sendPower(from + (static_cast<double>(step) / kSteps) * (target - from));
+        if (sent) sent = currentAllowed();
         if (!sent) return sent;
         if (step < kSteps) clock_.wait(kStep);
     }

@@ -50,9 +50,10 @@ Result<LensCondition> Usb1208Lens::heartbeat() {
 }
 
 Result<void> Usb1208Lens::safe() {
+    auto rested = output_->safe();  // first: a box that is silent makes what follows last
     sync_.reset();
     input_.reset();
-    return output_->safe();
+    return rested;
 }
 
 }  // namespace ilf::devices

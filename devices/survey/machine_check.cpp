@@ -1,7 +1,6 @@
 #include "devices/survey/machine_check.h"
 
 #include <grp.h>
-#include <pwd.h>
 #include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -27,9 +26,9 @@ constexpr const char* kMode = "912x1140";
 /// The community's mode with 83.68 in place of 83.60 MHz: 60.001 Hz, as the lenses' sweep needs it, not 59.94.
 constexpr const char* kModeLine = "83.68 912 952 1016 1192 1140 1150 1156 1170 +HSync +VSync";
 
-std::string userName() {
-    const passwd* user = getpwuid(getuid());  // NOLINT(concurrency-mt-unsafe)
-    return user != nullptr ? user->pw_name : "$USER";
+std::string thisUser() {
+    const std::string name = userName();
+    return name.empty() ? "this user" : name;
 }
 
 bool inGroup(const char* name) {
@@ -50,6 +49,11 @@ MachineCheck rules(const InstalledRules& installed, bool udev) {
     MachineCheck check{"udev-rules", Standing::good, "", "", {}};
     if (installed.same) {
         check.what = "USB rules are installed (" + installed.file.string() + ").";
+    } else if (!installed.file.empty() && !installed.ours) {
+        check.standing = Standing::missing;
+        check.what = installed.file.string() + " was written by somebody else, or hides this program's USB rules.";
+        check.help = "It is left as it is. Ask who wrote it, move it away, then install the rules:";
+        check.commands = {installCommand()};
     } else {
         check.standing = Standing::missing;
         check.what = installed.file.empty()
@@ -75,7 +79,7 @@ MachineCheck groups() {
         check.standing = Standing::missing;
         check.what = "Not logged in at the screen (ssh, or a service), and not in the groups plugdev and dialout.";
         check.help = "Join them, then log in again:";
-        check.commands = {"sudo usermod -aG plugdev,dialout,video " + userName()};
+        check.commands = {joinCommand("plugdev,dialout,video")};
     }
     return check;
 }
@@ -119,14 +123,16 @@ bool mayLockMemory() {
 }
 
 std::string limitsCommand(const std::string& item) {
-    return "echo '" + userName() + " - " + item + "' | sudo tee -a " + kLimits;
+    // limits.conf(5): ":1000" is the user of that number.
+    const std::string name = userName(), whom = name.empty() ? ":" + std::to_string(getuid()) : name;
+    return "echo " + shellWord(whom + " - " + item) + " | sudo tee -a " + kLimits;
 }
 
 MachineCheck realTime() {
     if (mayRunInRealTime()) return {"real-time", Standing::good, "Real-time priority is allowed.", "", {}};
     return {"real-time",
             Standing::missing,
-            "Real-time priority is not allowed to " + userName() +
+            "Real-time priority is not allowed to " + thisUser() +
                 ": a busy machine may make the lenses late, and then a show stops in steady white light.",
             "Allow it, then log out and in again (in a container: start it with rtprio):",
             {limitsCommand("rtprio " + std::to_string(kPriority))}};
@@ -136,7 +142,7 @@ MachineCheck lockedMemory() {
     if (mayLockMemory()) return {"locked-memory", Standing::good, "Memory may be kept from being swapped out.", "", {}};
     return {"locked-memory",
             Standing::missing,
-            "Locked memory is not allowed to " + userName() + ": swapping may make the lenses late.",
+            "Locked memory is not allowed to " + thisUser() + ": swapping may make the lenses late.",
             "Allow it, then log out and in again:",
             {limitsCommand("memlock unlimited")}};
 }

@@ -124,8 +124,8 @@ void lookAtSerial(Attached& device, const UsbIdentity& identity, const SurveyOpt
                         "driver is missing: sudo modprobe cdc_acm");
     if (!judgedFromOutside(device, options,
                            "Run: " + installCommand() +
-                               ", then unplug it and plug it in again; or join the group dialout (sudo usermod -aG "
-                               "dialout $USER) and log in again."))
+                               ", then unplug it and plug it in again; or join the group dialout (" +
+                               joinCommand("dialout") + ") and log in again."))
         return;
     const auto port = openSerialPort(device.node);
     if (!port) return failed(device, DeviceState::busy, port.error(), identity, options.clock);
@@ -165,7 +165,7 @@ Attached lookedAt(const CameraEntry& camera, const SurveyOptions& options) {
     // Cameras are judged from outside only: opening one switches its light on.
     SurveyOptions outside = options;
     outside.ask = Ask::evenWithCore;
-    if (judgedFromOutside(device, outside, "Join the group video (sudo usermod -aG video $USER) and log in again."))
+    if (judgedFromOutside(device, outside, "Join the group video (" + joinCommand("video") + ") and log in again."))
         device.state = DeviceState::ready;
     if (device.state == DeviceState::ready && !device.holders.empty())
         device.remarks.push_back("It is open in " + listed(device.holders) + "; only one program gets its pictures.");

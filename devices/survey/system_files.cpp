@@ -1,5 +1,6 @@
 #include "devices/survey/system_files.h"
 
+#include <pwd.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -56,6 +57,23 @@ fs::path serialPortOf(const UsbIdentity& device, const SystemPlaces& places) {
             return places / "dev" / name;
     }
     return {};
+}
+
+std::string shellWord(const std::string& text) {
+    std::string word = "'";
+    for (const char c : text)
+        word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return word + "'";
+}
+
+std::string userName() {
+    const passwd* user = getpwuid(getuid());  // NOLINT(concurrency-mt-unsafe)
+    return user != nullptr ? user->pw_name : "";
+}
+
+std::string joinCommand(const std::string& groups) {
+    const std::string name = userName();
+    return "sudo usermod -aG " + groups + " " + (name.empty() ? "YOUR_USER_NAME" : name);
 }
 
 bool mayOpen(const fs::path& node) { return ::access(node.c_str(), R_OK | W_OK) == 0; }

@@ -23,6 +23,12 @@ std::filesystem::path usbNodeOf(const UsbIdentity& device, const SystemPlaces& p
 std::string usbReleaseOf(const UsbIdentity& device, const SystemPlaces& places);
 /// /dev/ttyACM0 of a USB device that has a serial port; empty: it has none (yet).
 std::filesystem::path serialPortOf(const UsbIdentity& device, const SystemPlaces& places);
+/// `text` as one word of a shell's command: "it's" is 'it'\''s'.
+std::string shellWord(const std::string& text);
+/// The name of who runs this; empty: the system has none for the number.
+std::string userName();
+/// "sudo usermod -aG dialout anna"; YOUR_USER_NAME where there is no name.
+std::string joinCommand(const std::string& groups);
 /// Whether this user may read and write it.
 bool mayOpen(const std::filesystem::path& node);
 

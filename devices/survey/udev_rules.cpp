@@ -43,6 +43,13 @@ Result<void> written(const fs::path& file, const std::string& text) {
     return error;
 }
 
+/// An administrator may have put rules of their own there, or a link to /dev/null that switches them off.
+bool areOurs(const fs::path& file) {
+    std::error_code none;
+    const std::string rules = udevRules();
+    return fs::is_regular_file(fs::symlink_status(file, none)) && firstLine(file) == rules.substr(0, rules.find('\n'));
+}
+
 std::string folderOfUdevadm(const SystemPlaces& places) {
     for (const char* folder : {"usr/bin", "bin", "usr/sbin", "sbin"})
         if (std::error_code none; fs::exists(places / folder / "udevadm", none)) return folder;
@@ -61,8 +68,10 @@ std::string udevRules() { return kUdevRulesText; }
 InstalledRules installedRules(const SystemPlaces& places) {
     for (const char* folder : {"etc/udev/rules.d", "run/udev/rules.d", "usr/lib/udev/rules.d", "lib/udev/rules.d"}) {
         const fs::path file = places / folder / kName;
+        std::error_code none;
+        if (!fs::exists(fs::symlink_status(file, none))) continue;
         std::ifstream in(file);
-        if (in) return {file, std::string(std::istreambuf_iterator<char>(in), {}) == udevRules()};
+        return {file, std::string(std::istreambuf_iterator<char>(in), {}) == udevRules(), areOurs(file)};
     }
     return {};
 }
@@ -70,7 +79,7 @@ InstalledRules installedRules(const SystemPlaces& places) {
 std::string installCommand() {
     std::error_code none;
     const fs::path program = fs::read_symlink("/proc/self/exe", none);
-    return "sudo '" + (none ? std::string("illuminatedfocus") : program.string()) + "' doctor --install-rules";
+    return "sudo " + shellWord(none ? std::string("illuminatedfocus") : program.string()) + " doctor --install-rules";
 }
 
 std::string rulesByHand() {
@@ -85,6 +94,11 @@ Result<std::vector<std::string>> installRules(const SystemPlaces& places) {
         done.push_back("The rules in " + file.string() + " are already those of this version.");
     } else {
         std::error_code error;
+        if (fs::exists(fs::symlink_status(file, error)) && !areOurs(file))
+            return fail(Fault::cannotWrite, "\"" + file.string() +
+                                                "\" was written by somebody else, or switches these rules off, so it "
+                                                "was left as it is. Ask who wrote it, move it away, then run this "
+                                                "again.");
         fs::create_directories(folder, error);
         if (error)
             return fail(Fault::cannotWrite, "\"" + folder.string() + "\" cannot be made (" + error.message() +

@@ -16,6 +16,7 @@ std::string udevRules();
 struct InstalledRules {
     std::filesystem::path file;  ///< empty: none
     bool same = false;           ///< as the ones of this version
+    bool ours = false;           ///< of some version: they begin like these, and are no link
 };
 /// Looks where udev does; a file in /etc hides one of the same name in /usr/lib.
 InstalledRules installedRules(const SystemPlaces& places);
@@ -26,7 +27,8 @@ std::string installCommand();
 std::string rulesByHand();
 
 /// Writes the rules whole or not at all, then lets udev read them and look at what is plugged in, where udevadm is
-/// there. Gives sentences of what was done. Errors: `cannotWrite`.
+/// there. A file or link in their place that is not of this program is left alone. Gives sentences of what was done.
+/// Errors: `cannotWrite`.
 Result<std::vector<std::string>> installRules(const SystemPlaces& places);
 
 }  // namespace ilf::devices

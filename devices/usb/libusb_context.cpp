@@ -1,6 +1,7 @@
 #include "devices/usb/libusb_context.h"
 
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 
@@ -38,7 +39,11 @@ UsbEvents::~UsbEvents() {
 void UsbEvents::run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         timeval pause{0, 100'000};
-        libusb_handle_events_timeout_completed(context_, &pause, nullptr);
+        const int code = libusb_handle_events_timeout_completed(context_, &pause, nullptr);
+        const bool good = code == LIBUSB_SUCCESS || code == LIBUSB_ERROR_INTERRUPTED || code == LIBUSB_ERROR_TIMEOUT;
+        failure_ = good ? 0 : code;
+        // It came back at once, and may again.
+        if (!good) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
 }
 

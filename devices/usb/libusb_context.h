@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "devices/usb/usb_link.h"
+#include "devices/usb/usb_news.h"
 
 namespace ilf::devices {
 
@@ -18,10 +19,13 @@ class UsbEvents {
 public:
     explicit UsbEvents(libusb_context* context);
     ~UsbEvents();
+    /// libusb's code of why events can no longer be handled, so that nothing in flight comes back; 0: they are.
+    int failure() const { return failure_; }
 
 private:
     void run(const std::stop_token& stop);
     libusb_context* context_;
+    std::atomic<int> failure_{0};
     std::jthread thread_;
 };
 
@@ -36,10 +40,13 @@ public:
     libusb_context* raw() const { return context_; }
     /// The one event thread, started with the first stream and ended with the last.
     std::shared_ptr<UsbEvents> events();
+    /// What came and went. It lives as long as libusb may tell any.
+    UsbNews& news() { return news_; }
 
 private:
     explicit UsbContext(libusb_context* context) : context_(context) {}
     libusb_context* context_;
+    UsbNews news_;
     std::mutex mutex_;
     std::weak_ptr<UsbEvents> events_;
 };

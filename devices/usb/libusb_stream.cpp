@@ -41,7 +41,7 @@ Result<std::unique_ptr<UsbStream>> LibusbStream::start(std::shared_ptr<OpenUsbDe
                                                        Taken taken) {
     std::unique_ptr<LibusbStream> stream(
         new LibusbStream(std::move(device), endpoint, std::move(fill), std::move(taken)));
-    stream->prepare(transferBytes, inFlight);
+    if (auto ready = stream->prepare(transferBytes, inFlight); !ready) return tl::unexpected(ready.error());
     // All are filled before the first is sent, so that none waits for another's samples.
     if (stream->fill_)
         for (const auto& part : stream->parts_)
@@ -52,16 +52,19 @@ Result<std::unique_ptr<UsbStream>> LibusbStream::start(std::shared_ptr<OpenUsbDe
     return stream;
 }
 
-void LibusbStream::prepare(std::size_t transferBytes, int inFlight) {
+Result<void> LibusbStream::prepare(std::size_t transferBytes, int inFlight) {
     for (int i = 0; i < inFlight; ++i) {
         auto part = std::make_unique<Part>();
         part->stream = this;
         part->buffer.resize(transferBytes);
         part->transfer = libusb_alloc_transfer(0);
+        if (part->transfer == nullptr)
+            return tl::unexpected(usbError(LIBUSB_ERROR_NO_MEM, device_->identity, "starting a stream"));
         libusb_fill_bulk_transfer(part->transfer, device_->handle, endpoint_.address, part->buffer.data(),
                                   static_cast<int>(transferBytes), &LibusbStream::completed, part.get(), 0);
         parts_.push_back(std::move(part));
     }
+    return {};
 }
 
 LibusbStream::~LibusbStream() {
@@ -79,6 +82,8 @@ LibusbStream::~LibusbStream() {
 Result<void> LibusbStream::state() const {
     const std::scoped_lock lock(mutex_);
     if (error_) return tl::unexpected(*error_);
+    if (const int code = events_->failure(); code != 0)
+        return tl::unexpected(usbError(code, device_->identity, "streaming"));
     return {};
 }
 

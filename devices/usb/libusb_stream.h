@@ -30,7 +30,7 @@ private:
         Bytes buffer;
     };
     LibusbStream(std::shared_ptr<OpenUsbDevice> device, Endpoint endpoint, Fill fill, Taken taken);
-    void prepare(std::size_t transferBytes, int inFlight);
+    Result<void> prepare(std::size_t transferBytes, int inFlight);
     int submit(Part& part);
     void done(Part& part);
     void ended(int code);

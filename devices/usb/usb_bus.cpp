@@ -1,7 +1,6 @@
 #include "devices/usb/usb_bus.h"
 
 #include <algorithm>
-#include <mutex>
 #include <utility>
 
 #include "devices/usb/libusb_context.h"
@@ -53,7 +52,8 @@ Result<void> claimed(OpenUsbDevice& open, libusb_device* device) {
 
 }  // namespace
 
-/// libusb's news, until somebody asks for them.
+/// Has libusb tell its news. They go to the context and not to this object: when a callback is taken back, it may still
+/// be running on another thread.
 class UsbBus::Watch {
 public:
     explicit Watch(std::shared_ptr<UsbContext> context) : context_(std::move(context)) {
@@ -61,7 +61,7 @@ public:
         if (libusb_has_capability(LIBUSB_CAP_HAS_HOTPLUG) != 0)
             registered_ = libusb_hotplug_register_callback(
                               context_->raw(), LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT,
-                              0, kAny, kAny, kAny, &Watch::noticed, this, &callback_) == LIBUSB_SUCCESS;
+                              0, kAny, kAny, kAny, &Watch::noticed, &context_->news(), &callback_) == LIBUSB_SUCCESS;
     }
     ~Watch() {
         if (registered_) libusb_hotplug_deregister_callback(context_->raw(), callback_);
@@ -73,25 +73,21 @@ public:
 
     std::vector<UsbChange> taken() {
         timeval atOnce{0, 0};
-        libusb_handle_events_timeout_completed(context_->raw(), &atOnce, nullptr);
-        const std::scoped_lock lock(mutex_);
-        return std::exchange(changes_, {});
+        // Where events cannot be handled there are no news, and a list still tells what is there.
+        (void)libusb_handle_events_timeout_completed(context_->raw(), &atOnce, nullptr);
+        return context_->news().taken();
     }
 
 private:
     /// Comes from within any libusb call that handles events, so it only notes.
-    static int LIBUSB_CALL noticed(libusb_context*, libusb_device* device, libusb_hotplug_event event, void* self) {
-        auto* watch = static_cast<Watch*>(self);
-        const std::scoped_lock lock(watch->mutex_);
-        watch->changes_.push_back({event == LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED, identityOf(device)});
+    static int LIBUSB_CALL noticed(libusb_context*, libusb_device* device, libusb_hotplug_event event, void* news) {
+        static_cast<UsbNews*>(news)->add({event == LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED, identityOf(device)});
         return 0;
     }
 
     std::shared_ptr<UsbContext> context_;
     libusb_hotplug_callback_handle callback_ = 0;
     bool registered_ = false;
-    std::mutex mutex_;
-    std::vector<UsbChange> changes_;
 };
 
 UsbBus::UsbBus(std::unique_ptr<Watch> watch) : watch_(std::move(watch)) {}

@@ -40,7 +40,8 @@ public:
     /// is closed. Refused permission and a device in use are told with what to do.
     Result<std::unique_ptr<UsbLink>> link(const std::string& path, int interfaceNumber);
 
-    /// What came and went since the last call. Where the system tells no news this stays empty: list now and then.
+    /// What came and went since the last call, the newest 256. Where the system tells no news this stays empty: list
+    /// now and then.
     std::vector<UsbChange> changes();
 
 private:

@@ -57,7 +57,8 @@ public:
     Result<Change> shift(int samples);
     /// Whether it still does what it was told; to be called every 100 ms.
     Result<LensOutputReport> heartbeat();
-    /// Ramps to rest within 100 ms and holds it. Works from any state; an error means that the device could not be
+    /// Ramps to rest within 100 ms and holds it: from what the outputs read back, else from what they were told last,
+    /// and in one step only where neither is known. Works from any state; an error means that the device could not be
     /// told, and then is gone or must be unplugged.
     Result<void> safe();
 
@@ -87,6 +88,7 @@ private:
     Clock clock_;
     std::optional<Error> fault_;
     bool readsBack_ = false, sweeping_ = false;
+    std::optional<std::pair<Ampere, Ampere>> told_;  ///< last, left and right; none: nothing yet
     std::chrono::nanoseconds startedAt_{0};
     mutable std::mutex mutex_;  ///< guards `player_`
     std::optional<SweepPlayer> player_;

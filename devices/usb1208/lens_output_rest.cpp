@@ -29,8 +29,7 @@ Result<void> LensOutput::safe() {
     // single writes. A cut stops the lens where it is, which is no steeper than any sweep.
     const auto stop = stopped();
     const auto& [left, right] = setup_.channels;
-    // Where the outputs stand can only be asked; a device that cannot tell goes to rest in one step.
-    const auto from = readOutputs().value_or(std::pair(left.rest, right.rest));
+    const auto from = readOutputs().value_or(told_.value_or(std::pair(left.rest, right.rest)));
     Result<void> last;
     bool told = false;
     for (int step = from == std::pair(left.rest, right.rest) ? kSteps : 1; step <= kSteps; ++step) {
@@ -51,6 +50,7 @@ Result<void> LensOutput::stopped() {
     sweeping_ = false;
     {
         const std::scoped_lock lock(mutex_);
+        if (player_) told_.emplace(player_->lastLeft(), player_->lastRight());
         player_.reset();
     }
     // What was cut off must not be played when the next scan starts; that start clears again, so an error waits for it.
@@ -70,6 +70,7 @@ Result<void> LensOutput::held(Ampere left, Ampere right) {
     // The other lens is told whatever became of the one.
     auto one = write(0, setup_.channels.left.amplifier, left);
     auto other = write(1, setup_.channels.right.amplifier, right);
+    told_.emplace(left, right);
     return one ? other : one;
 }
 

@@ -37,6 +37,7 @@ struct FakeDriver {
     // What it does.
     int mode = 2;
     int current = 700, power = 0;
+    int codesPerPower = 0;  ///< of current, in focal power mode; 0: whatever it was
     std::uint32_t milliHertz = 1;
     int swingHigh = 0, swingLow = 0;
     int starts = 0, eepromWrites = 0;
@@ -113,6 +114,7 @@ struct FakeDriver {
         if (begins("PwDA")) {
             if (mode != 5) return refuse(2);
             power = i16(4);
+            if (codesPerPower != 0) current = power * codesPerPower;
             return;
         }
         if (begins("PwFA")) {

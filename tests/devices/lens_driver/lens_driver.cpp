@@ -114,6 +114,37 @@ TEST_CASE("lens driver: currents are clamped to the narrowest of rig, driver and
     CHECK((*driver)->holdCurrent(Ampere::fromSi(std::nan(""))).error().fault == Fault::outOfRange);
 }
 
+TEST_CASE("lens driver: a resting power that takes more current than is allowed is left for the resting current") {
+    FakeDriver device;
+    device.codesPerPower = 30;  // 3000 of 4095 steps for 0.5 D: 215 mA
+    auto how = setup();
+    how.protection.most = mA(100.0);
+    const auto driver = opened(device, how);
+    REQUIRE(driver);
+    CHECK(restsByCurrent(device));
+    CHECK((*driver)->holdPower(0.5_D).error().fault == Fault::unsupported);
+    CHECK((*driver)->heartbeat());
+    REQUIRE((*driver)->rest());
+    CHECK(restsByCurrent(device));
+}
+
+TEST_CASE("lens driver: a resting power that comes to take too much current, as lenses warm, is a fault and is left") {
+    FakeDriver device;
+    device.codesPerPower = 10;  // 71 mA
+    auto how = setup();
+    how.protection.most = mA(100.0);
+    const auto driver = opened(device, how);
+    REQUIRE(driver);
+    REQUIRE(restsByPower(device));
+    REQUIRE((*driver)->heartbeat());
+    device.codesPerPower = 20;
+    device.current = 2000;
+    const auto beat = (*driver)->heartbeat();
+    REQUIRE_FALSE(beat);
+    CHECK(beat.error().fault == Fault::unsafe);
+    CHECK(restsByCurrent(device));
+}
+
 TEST_CASE("lens driver: powers are held within reach, and refused outside without a fault") {
     FakeDriver device;
     const auto driver = opened(device);

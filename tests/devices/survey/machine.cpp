@@ -115,9 +115,47 @@ TEST_CASE("machine: rules of the system's package count, and older ones in /etc 
     CHECK(installedRules(places).file.empty());
     write(places / "usr/lib/udev/rules.d/70-illuminatedfocus.rules", udevRules());
     CHECK(installedRules(places).same);
-    write(places / "etc/udev/rules.d/70-illuminatedfocus.rules", "# older\n");
+    const std::string ours = udevRules();
+    write(places / "etc/udev/rules.d/70-illuminatedfocus.rules", ours.substr(0, ours.find('\n')) + "\n# older\n");
     CHECK(!installedRules(places).same);
     CHECK(checkNamed("udev-rules", places).standing == Standing::missing);
+    CHECK(checkNamed("udev-rules", places).what.find("another version") != std::string::npos);
+    REQUIRE(installRules(places));
+    CHECK(installedRules(places).same);
+}
+
+TEST_CASE("udev rules: an administrator's own file, and a link that switches them off, are left alone and told") {
+    const TemporaryDirectory root;
+    const SystemPlaces places{root.path()};
+    const fs::path file = places / "etc/udev/rules.d/70-illuminatedfocus.rules";
+    const std::string theirs = "# ours, not theirs\nSUBSYSTEM==\"usb\", MODE=\"0600\"\n";
+    write(file, theirs);
+    const auto refused = installRules(places);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().fault == Fault::cannotWrite);
+    CHECK(refused.error().what.find("was written by somebody else") != std::string::npos);
+    std::ostringstream kept;
+    kept << std::ifstream(file).rdbuf();
+    CHECK(kept.str() == theirs);
+    const MachineCheck check = checkNamed("udev-rules", places);
+    CHECK(check.standing == Standing::missing);
+    CHECK(check.what.find("written by somebody else") != std::string::npos);
+
+    fs::remove(file);
+    fs::create_symlink("/dev/null", file);
+    CHECK_FALSE(installRules(places));
+    CHECK(fs::read_symlink(file) == "/dev/null");
+    fs::remove(file);
+    CHECK(installRules(places));
+}
+
+TEST_CASE("machine: commands survive a path with a quote, and a user without a name") {
+    CHECK(shellWord("/opt/illuminatedfocus") == "'/opt/illuminatedfocus'");
+    const std::string odd = "/home/o'neil's $HOME/`x` \"y\"";
+    const Ran ran = runProgram("/bin/echo", "-n " + shellWord(odd));
+    CHECK(ran.out == odd);
+    CHECK(installCommand().starts_with("sudo '"));
+    CHECK(joinCommand("video").find('$') == std::string::npos);
 }
 
 TEST_CASE("machine: ModemManager is a matter only where it is there and not told to keep away") {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "devices/usb/usb_bus.h"
+#include "devices/usb/usb_news.h"
 #include "devices/usb/usb_words.h"
 
 using namespace ilf;
@@ -51,7 +52,8 @@ TEST_CASE("usb: programs that hold a node are found among the processes") {
     FILE* shell = ::popen(("exec 3< " + node.string() + "; read end").c_str(), "w");
     REQUIRE(shell != nullptr);
     std::vector<std::string> found;
-    for (int tries = 0; tries < 500 && found.empty(); ++tries) {
+    // The shell may take its time on a busy machine.
+    for (int tries = 0; tries < 12'000 && found.empty(); ++tries) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
         found = programsHolding(node);
     }
@@ -69,6 +71,17 @@ TEST_CASE("usb: programs that hold a node are found among the processes") {
     std::filesystem::remove_all(processes);
     std::filesystem::remove(node);
     CHECK(programsHolding(node, processes).empty());
+}
+
+TEST_CASE("usb: news that nobody fetches do not pile up, and the newest are kept") {
+    UsbNews news;
+    for (int i = 0; i < 10'000; ++i)
+        news.add({i % 2 == 0, {0x0451, 0x6401, std::to_string(i), "", ""}});
+    const auto changes = news.taken();
+    REQUIRE(changes.size() == UsbNews::kMost);
+    CHECK(changes.back().device.path == "9999");
+    CHECK(changes.front().device.path == std::to_string(10'000 - UsbNews::kMost));
+    CHECK(news.taken().empty());
 }
 
 TEST_CASE("usb: without the device the bus lists nothing and says where it should be") {

@@ -129,7 +129,7 @@ TEST_CASE("lens output: waves that cannot be played are refused and change nothi
     CHECK((*output)->shift(30));
 }
 
-TEST_CASE("lens output: rest is reached within 100 ms, by a ramp where the outputs can be read back") {
+TEST_CASE("lens output: rest is reached within 100 ms, by a ramp, whether or not the outputs can be read back") {
     for (const bool readsBack : {true, false}) {
         FakeDac dac;
         dac.readsBack = readsBack;
@@ -143,7 +143,8 @@ TEST_CASE("lens output: rest is reached within 100 ms, by a ramp where the outpu
         output->reset();
         CHECK(rests(dac));
         CHECK(dac.at - before <= std::chrono::milliseconds(100));
-        CHECK(dac.held.size() == (readsBack ? 16 : 2));
+        CHECK(dac.held.size() == 16);
+        CHECK(std::abs(dac.held.front().second[0] - kRest[0]) > 50);  // there is a way to go
         // The scan ran on until it was stopped, so steps are judged from the first one held.
         int last = dac.held.front().second[0];
         const int most = std::abs(kRest[0] - last) / 7 + 2;
@@ -253,7 +254,12 @@ TEST_CASE("lens output: samples are made on a thread of their own while waves sw
             (*output)->placeOf(static_cast<double>(report->frames));
             most = std::max(most, report->frames);
         }
-        CHECK(swaps > 0);
+        // On a busy machine the other thread may not have had a turn yet.
+        for (int waits = 0; most == 0 && waits < 20'000; ++waits) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            most = (*output)->heartbeat()->frames;
+        }
+        CHECK(swaps > 0);  // the first one: from rest
         REQUIRE((*output)->safe());
     }
     CHECK(most > 0);
