@@ -13,19 +13,27 @@ using emulators::Mishap;
 
 constexpr double kLogic_V = 3.3;
 constexpr int kTriggerInput = 0, kEchoInput = 1;
-// The converter asks for triggers as late as six frames after them.
+// The converter asks for triggers as late as the projector may be told its syncs.
 constexpr std::int64_t kWireRemembers_ns = 1'000'000'000;
 constexpr std::size_t kPowers = 240;
 constexpr Dioptre kStill = 0.02_D;
 
 Second seconds(std::int64_t ns) { return Second::fromSi(1e-9 * static_cast<double>(ns)); }
 
+/// Syncs that a busy machine tells late are on time all the same (RigVideo makes up for half a second of them).
+emulators::LightCrafterOptions patient() {
+    emulators::LightCrafterOptions options;
+    options.framesAwaited = 40;
+    return options;
+}
+
 const char* place(std::size_t device) { return device == 0 ? kEmulatedProjectorAt : kEmulatedLensesAt; }
 
 }  // namespace
 
 RigCables::RigCables(LensPreset preset)
-    : preset_(preset), lenses_{SampledLens(preset, monotonicNs()), SampledLens(preset, monotonicNs())} {}
+    : preset_(preset), projector_(patient()),
+      lenses_{SampledLens(preset, monotonicNs()), SampledLens(preset, monotonicNs())} {}
 
 Result<std::unique_ptr<RigCables>> RigCables::started(LensPreset preset) {
     auto bus = emulators::UsbHost::started();

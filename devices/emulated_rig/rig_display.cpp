@@ -94,16 +94,19 @@ pid_t startedProgram(const std::string& program, std::vector<std::string> argume
         words.push_back(argument.data());
     words.push_back(nullptr);
     const std::vector<char*> variables = plainEnvironment();
+    const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
     const pid_t parent = getpid();
     const pid_t pid = fork();
-    if (pid != 0) return pid;
-    // Between fork and exec only what is safe in a signal handler.
+    if (pid != 0) {
+        close(nowhere);
+        return pid;
+    }
+    // Between fork and exec only what is safe in a signal handler, and nothing that umockdev wraps: it takes locks.
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
     if (getppid() != parent) _exit(1);
-    const int nowhere = open("/dev/null", O_RDWR);
     for (const int stream : {0, 1, 2})
         dup2(nowhere, stream);
     execve(program.c_str(), words.data(), variables.data());

@@ -31,6 +31,7 @@ struct LightCrafterOptions {
     std::int64_t validation_ns = 20'000'000;  ///< until the LUT is checked
     std::int64_t lock_ns = 200'000'000;       ///< until a source that was plugged is locked
     std::int64_t triggerWidth_ns = 100'000;   ///< of TRIG_OUT_2; not documented where we read
+    int framesAwaited = 6;                    ///< how many may be late until there is no video any more (`knownUntil`)
 };
 
 /// What is plugged into the video input. Frames come one a period, each at its vertical sync.

@@ -249,7 +249,8 @@ void EmulatedLightCrafter::triggerIn(std::int64_t now_ns) {
 std::int64_t EmulatedLightCrafter::knownUntil(std::int64_t now_ns) const {
     if (!source_ || !lastSync_ns_ || source_->refresh_Hz <= 0.0) return now_ns;
     const auto period_ns = static_cast<std::int64_t>(1e9 / source_->refresh_Hz);
-    const std::int64_t overdue_ns = *lastSync_ns_ + 6 * period_ns;  // then there are no frames any more
+    const std::int64_t overdue_ns =
+        *lastSync_ns_ + options_.framesAwaited * period_ns;  // then there are no frames any more
     return now_ns > overdue_ns ? now_ns : std::min(now_ns, *lastSync_ns_ + period_ns * 9 / 10);
 }
 

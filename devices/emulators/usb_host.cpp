@@ -59,6 +59,11 @@ bool wellFormed(const std::string& path) {
     return digit;
 }
 
+// A program that asks for a transfer that is done asks again at once, for as long as it takes: to umockdev a device's
+// file can always be read. So the answer waits a little. Longer, and the program's other threads, which umockdev keeps
+// waiting meanwhile, would starve.
+constexpr std::chrono::microseconds kPatience{300};
+
 /// Preloaded, its ioctl comes before the C library's.
 bool preloaded() {
     Dl_info info{};
@@ -85,7 +90,10 @@ struct UsbHost::Impl {
     std::vector<Return> returns;
     int nextNumber = 1;
     std::uint64_t transfers = 0;
+    std::chrono::microseconds patience{0};
     std::condition_variable_any wake;
+    bool roused = false;
+    std::int64_t wentOnAt_ns = 0;
     std::jthread attendant;  ///< pulls cables that devices pull themselves; last, so that it ends first
 
     ~Impl();
@@ -96,6 +104,11 @@ struct UsbHost::Impl {
     std::vector<UsbPort*> goneAndNotPulled();
     void letGo(UsbPort& port);
     void attend(const std::stop_token& stop);
+    void goOn();
+    void rouse() {
+        roused = true;
+        wake.notify_all();
+    }
 };
 
 UsbPort* UsbHost::Impl::at(const std::string& path) const {
@@ -114,11 +127,14 @@ Result<void> UsbHost::Impl::plug(const std::string& path, EmulatedUsbDevice& dev
     port->lock = &devices;
     port->now_ns = clock;
     port->transfers = &transfers;
+    port->patience = patience;
     port->onGone = [this](UsbPort& left) {
         if (const auto back = left.device->backOnBusAt(); back && *back > clock())
             returns.push_back({left.path, left.device, *back});
-        wake.notify_all();
+        rouse();
     };
+    port->onWaiting = [this] { rouse(); };
+    port->catchUp = [this] { goOn(); };
     port->path = path;
     port->device = &device;
     port->descriptors = device.descriptors();
@@ -157,13 +173,14 @@ Result<void> UsbHost::Impl::plug(const std::string& path, EmulatedUsbDevice& dev
                      G_CALLBACK(+[](UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer data) -> gboolean {
                          auto& served = *static_cast<UsbPort*>(data);
                          bool known = true;
-                         Outcome outcome;
+                         std::optional<Outcome> outcome;
                          {
                              const std::scoped_lock lock(*served.lock);
+                             served.catchUp();
                              outcome = served.answer(client, known);
                          }
                          if (!known) return FALSE;
-                         umockdev_ioctl_client_complete(client, outcome.first, outcome.second);
+                         if (outcome) umockdev_ioctl_client_complete(client, outcome->first, outcome->second);
                          return TRUE;
                      }),
                      &added);
@@ -220,6 +237,7 @@ void UsbHost::Impl::pull(UsbPort& port) {
         port.pulledAt = std::chrono::steady_clock::now();
         for (auto& [program, client] : port.clients)
             client.urbs.clear();
+        port.goOn(clock());  // whoever waits is told
         port.device->unplugged(clock());
     }
     const std::string path = "/sys" + port.sysfs;
@@ -281,8 +299,27 @@ void UsbHost::Impl::attend(const std::stop_token& stop) {
             lock.lock();
             continue;
         }
-        wake.wait_for(lock, stop, std::chrono::milliseconds(returns.empty() ? 200 : 20), [] { return false; });
+        goOn();
+        const bool waits =
+            patience.count() > 0 && std::ranges::any_of(ports, [](const auto& port) { return port->waits(); });
+        const std::chrono::milliseconds pause(waits ? 1 : !returns.empty() ? 20 : 200);
+        wake.wait_for(lock, stop, pause, [this] { return std::exchange(roused, false); });
     }
+}
+
+/// The bus, brought to now. Where this process was late, in steps, so that a device takes what was handed in for it
+/// when it needed it.
+void UsbHost::Impl::goOn() {
+    if (patience.count() == 0) return;
+    constexpr std::int64_t kStep_ns = 5'000'000, kLongest_ns = 2'000'000'000;
+    const std::int64_t now = clock();
+    std::int64_t time = std::max(wentOnAt_ns, now - kLongest_ns);
+    do {
+        time = std::min(time + kStep_ns, now);
+        for (const auto& port : ports)
+            if (port->handler) port->goOn(time);
+    } while (time < now);
+    wentOnAt_ns = now;
 }
 
 UsbHost::Impl::~Impl() {
@@ -299,12 +336,14 @@ Result<std::unique_ptr<UsbHost>> UsbHost::started(Clock clock) {
                                          " (package umockdev) in LD_PRELOAD when the program starts.");
     auto impl = std::make_unique<Impl>();
     impl->clock = std::move(clock);
-    if (!impl->clock)
+    if (!impl->clock) {
+        impl->patience = kPatience;
         impl->clock = [] {
             return std::chrono::duration_cast<std::chrono::nanoseconds>(
                        std::chrono::steady_clock::now().time_since_epoch())
                 .count();
         };
+    }
     impl->bed.reset(umockdev_testbed_new());
     gchar* root = umockdev_testbed_get_root_dir(impl->bed.get());
     impl->directory = root;
@@ -349,6 +388,7 @@ void UsbHost::setBusy(const std::string& path, bool busy) {
 
 void UsbHost::locked(const std::function<void(std::int64_t now_ns)>& work) {
     const std::scoped_lock lock(impl_->devices);
+    impl_->goOn();
     work(impl_->clock());
 }
 

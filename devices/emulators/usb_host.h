@@ -19,7 +19,9 @@ namespace ilf::devices::emulators {
 /// resets and suspend do not exist.
 class UsbHost {
 public:
-    /// Nanoseconds that never go back; what the devices are told as now.
+    /// Nanoseconds that never go back; what the devices are told as now. Without one it is the machine's steady clock,
+    /// and transfers go on by themselves each millisecond, as under a host controller, however busy the program is that
+    /// handed them in. With one they go on when a program asks for them.
     using Clock = std::function<std::int64_t()>;
 
     static Result<std::unique_ptr<UsbHost>> started(Clock clock = {});

@@ -15,10 +15,10 @@ void UsbPort::forgetClosed() {
 }
 
 // Ioctls of usbdevfs; linux/usbdevice_fs.h and the kernel's documentation of it.
-Outcome UsbPort::answer(UMockdevIoctlClient* client, bool& known) {
+std::optional<Outcome> UsbPort::answer(UMockdevIoctlClient* client, bool& known) {
     UMockdevIoctlData* arg = umockdev_ioctl_client_get_arg(client);
     const unsigned long request = umockdev_ioctl_client_get_request(client);
-    if (gone) return {-1, ENODEV};
+    if (gone) return Outcome{-1, ENODEV};
     auto entry = std::ranges::find_if(clients, [&](const auto& known_) { return known_.first.get() == client; });
     if (entry == clients.end()) {
         forgetClosed();
@@ -30,50 +30,55 @@ Outcome UsbPort::answer(UMockdevIoctlClient* client, bool& known) {
     case USBDEVFS_GET_CAPABILITIES: {
         const IoctlData capabilities = resolved(arg, 0, sizeof(std::uint32_t));
         as<std::uint32_t>(capabilities) = USBDEVFS_CAP_ZERO_PACKET;
-        return {0, 0};
+        return Outcome{0, 0};
     }
     case USBDEVFS_CLAIMINTERFACE:
         return claim(program);
     case USBDEVFS_RELEASEINTERFACE:
         program.claimed = false;
-        return {0, 0};
+        return Outcome{0, 0};
     case USBDEVFS_DISCONNECT_CLAIM:
         kernelDriver = false;
         return claim(program);
     case USBDEVFS_GETDRIVER: {
-        if (!kernelDriver) return {-1, ENODATA};
+        if (!kernelDriver) return Outcome{-1, ENODATA};
         const IoctlData driver = resolved(arg, 0, sizeof(usbdevfs_getdriver));
         descriptors.kernelDriver.copy(as<usbdevfs_getdriver>(driver).driver, USBDEVFS_MAXDRIVERNAME);
-        return {0, 0};
+        return Outcome{0, 0};
     }
     case USBDEVFS_IOCTL: {
         const IoctlData call = resolved(arg, 0, sizeof(usbdevfs_ioctl));
         const int code = as<usbdevfs_ioctl>(call).ioctl_code;
         const bool connects = code == int(USBDEVFS_CONNECT);
-        if (!connects && code != int(USBDEVFS_DISCONNECT)) return {-1, ENOTTY};
-        if (!connects && !kernelDriver) return {-1, ENODATA};
+        if (!connects && code != int(USBDEVFS_DISCONNECT)) return Outcome{-1, ENOTTY};
+        if (!connects && !kernelDriver) return Outcome{-1, ENODATA};
         kernelDriver = connects && !descriptors.kernelDriver.empty();
-        return {0, 0};
+        return Outcome{0, 0};
     }
     case USBDEVFS_SUBMITURB:
         return submit(program, arg);
     case USBDEVFS_REAPURB:
-    case USBDEVFS_REAPURBNDELAY:
-        return reap(program, arg);
+    case USBDEVFS_REAPURBNDELAY: {
+        const Outcome reaped = reap(program, arg);
+        if (reaped.second != EAGAIN || patience.count() == 0) return reaped;
+        program.asksUntil = std::chrono::steady_clock::now() + patience;
+        onWaiting();
+        return std::nullopt;
+    }
     case USBDEVFS_DISCARDURB:
         return discard(program, *reinterpret_cast<void**>(arg->data));
     case USBDEVFS_CLEAR_HALT: {
         const IoctlData endpoint = resolved(arg, 0, sizeof(unsigned));
         device->clearHalt(static_cast<std::uint8_t>(as<unsigned>(endpoint)), now_ns());
-        return {0, 0};
+        return Outcome{0, 0};
     }
     case USBDEVFS_SETCONFIGURATION:
     case USBDEVFS_SETINTERFACE:
     case USBDEVFS_RESET:
-        return {0, 0};
+        return Outcome{0, 0};
     default:
         known = false;
-        return {-1, ENOTTY};
+        return Outcome{-1, ENOTTY};
     }
 }
 
@@ -98,25 +103,25 @@ Outcome UsbPort::submit(Client& client, UMockdevIoctlData* arg) {
     if (!urb.isControl() && !client.claimed) return {-1, EINVAL};
     client.urbs.push_back(std::move(urb));
     ++*transfers;
-    progress(client);
+    progress(client, now_ns());
+    if (patience.count() > 0 && !client.urbs.empty() && !client.urbs.back().done) onWaiting();
     return gone ? Outcome{-1, ENODEV} : Outcome{0, 0};
 }
 
 /// Of each endpoint the oldest transfer that is not done goes on as far as the device lets it.
-void UsbPort::progress(Client& client) {
+void UsbPort::progress(Client& client, std::int64_t now) {
     std::set<unsigned> waiting;
     for (Urb& urb : client.urbs) {
-        if (gone) return;
+        if (gone) return;  // pulled out by this very transfer, perhaps
         const unsigned endpoint = urb.isControl() ? 0U : urb.fields().endpoint;
         if (urb.done || waiting.contains(endpoint)) continue;
-        progress(urb);
+        progress(urb, now);
         if (!urb.done) waiting.insert(endpoint);
     }
 }
 
-void UsbPort::progress(Urb& urb) {
+void UsbPort::progress(Urb& urb, std::int64_t now) {
     const std::span<std::uint8_t> bytes = urb.bytes();
-    const std::int64_t now = now_ns();
     const std::uint8_t endpoint = urb.fields().endpoint;
     UsbTransfer transfer;
     if (urb.isControl()) {
@@ -149,7 +154,7 @@ void UsbPort::progress(Urb& urb) {
 }
 
 Outcome UsbPort::reap(Client& client, UMockdevIoctlData* arg) {
-    progress(client);
+    progress(client, now_ns());
     if (gone) return {-1, ENODEV};
     const auto done = std::ranges::find_if(client.urbs, &Urb::done);
     if (done == client.urbs.end()) return {-1, EAGAIN};
@@ -157,6 +162,22 @@ Outcome UsbPort::reap(Client& client, UMockdevIoctlData* arg) {
     umockdev_ioctl_data_set_ptr(pointer.get(), 0, done->data.get());
     client.urbs.erase(done);
     return {0, 0};
+}
+
+bool UsbPort::waits() const {
+    return std::ranges::any_of(clients,
+                               [](const auto& entry) { return entry.second.asksUntil || !entry.second.urbs.empty(); });
+}
+
+void UsbPort::goOn(std::int64_t now) {
+    for (auto& [program, client] : clients) {
+        progress(client, now);
+        if (!client.asksUntil) continue;
+        const Outcome reaped = reap(client, umockdev_ioctl_client_get_arg(program.get()));
+        if (reaped.second == EAGAIN && std::chrono::steady_clock::now() < *client.asksUntil) continue;
+        client.asksUntil.reset();
+        umockdev_ioctl_client_complete(program.get(), reaped.first, reaped.second);
+    }
 }
 
 Outcome UsbPort::discard(Client& client, const void* address) {

@@ -13,6 +13,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -65,15 +66,20 @@ struct Urb {
 struct Client {
     std::list<Urb> urbs;
     bool claimed = false;
+    /// It asked for a transfer that is done when none was: it is answered by then, or once one is.
+    std::optional<std::chrono::steady_clock::time_point> asksUntil;
 };
 
 /// A device at a place. It stays until the last program has let go of it, long after the cable is out.
 struct UsbPort {
     std::recursive_mutex* lock = nullptr;  ///< the host's, held in every call
     std::function<std::int64_t()> now_ns;
-    std::function<void(UsbPort&)> onGone;  ///< the device has left the bus by itself
-    std::uint64_t* transfers = nullptr;    ///< counted here
-    bool busy = false;                     ///< another program holds the interface
+    std::function<void(UsbPort&)> onGone;   ///< the device has left the bus by itself
+    std::function<void()> onWaiting;        ///< a program waits: `goOn` from now and then
+    std::function<void()> catchUp;          ///< brings the bus to now
+    std::uint64_t* transfers = nullptr;     ///< counted here
+    std::chrono::microseconds patience{0};  ///< how long a question for a transfer that is done may wait for one
+    bool busy = false;                      ///< another program holds the interface
     std::string path, node, sysfs;
     EmulatedUsbDevice* device = nullptr;
     UsbDescriptors descriptors;
@@ -84,13 +90,18 @@ struct UsbPort {
     std::chrono::steady_clock::time_point pulledAt;
 
     void forgetClosed();
-    Outcome answer(UMockdevIoctlClient* client, bool& known);
+    /// None: it is answered later, by `goOn`.
+    std::optional<Outcome> answer(UMockdevIoctlClient* client, bool& known);
     Outcome claim(Client& client);
     Outcome submit(Client& client, UMockdevIoctlData* arg);
     Outcome reap(Client& client, UMockdevIoctlData* arg);
+    /// What a host controller does by itself: transfers go on, and whoever waits for one is answered.
+    void goOn(std::int64_t now);
+    /// Somebody has handed something in, or asked.
+    bool waits() const;
     Outcome discard(Client& client, const void* address);
-    void progress(Client& client);
-    void progress(Urb& urb);
+    void progress(Client& client, std::int64_t now);
+    void progress(Urb& urb, std::int64_t now);
 };
 
 }  // namespace ilf::devices::emulators

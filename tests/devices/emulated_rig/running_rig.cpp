@@ -78,7 +78,9 @@ std::unique_ptr<LightCrafterStage> RunningRig::stage(int bits) {
     rig.openLens = [this](Dioptre rest) -> Result<std::unique_ptr<StageLens>> {
         auto link = bus_->link(kEmulatedLensesAt, 0);
         if (!link) return tl::unexpected(link.error());
-        return Usb1208Lens::open(*std::move(link), {}, rest);
+        LensOutputSetup setup;
+        setup.transfersInFlight = 20;  // this machine may do much else
+        return Usb1208Lens::open(*std::move(link), setup, rest);
     };
     rig.video = *displayOutput({{}, {912, 1140}});
     rig.packed = patternFrames(bits);
