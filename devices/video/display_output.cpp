@@ -14,6 +14,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::chrono::nanoseconds kTryEvery = 500ms;
+// No server tells that a night light has bent the gamma ramp.
+constexpr std::chrono::nanoseconds kLookEvery = 1s;
 
 std::string sizeText(Size size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
 
@@ -51,7 +53,8 @@ private:
             if (x_->lost())
                 return lost({Fault::device, "The projector's display server is gone; the display is looked for "
                                             "again."});
-            if (!changed) return {};
+            const bool look = changed || clock_.now() - lookedAt_ >= kLookEvery;
+            if (!look) return {};
             auto still = stillThere();
             if (!still) return lost(still.error());
             return {};
@@ -97,7 +100,7 @@ private:
             }
             const XDisplay& display = (*displays)[chosen->index];
             if (!chosen->setMode) {
-                straightenGamma(*x_, display);
+                sendPlainly(*x_, display);
                 return display;
             }
             if (set)
@@ -124,6 +127,7 @@ private:
     }
 
     Result<void> stillThere() {
+        lookedAt_ = clock_.now();
         const auto displays = xDisplays(*x_);
         if (!displays) return tl::unexpected(displays.error());
         const auto chosen = chosenDisplay(foundOf(*displays), bound());
@@ -140,7 +144,7 @@ private:
             display.found.top != at_.found.top)
             return fail(Fault::device,
                         "The projector's display " + displayName(display_) + " was moved on the desktop.");
-        straightenGamma(*x_, display);
+        sendPlainly(*x_, display);
         return {};
     }
 
@@ -187,6 +191,7 @@ private:
     bool bound_ = false;      ///< `display_` is what was found, not what was wished
     bool unplugged_ = false;  ///< not only switched off
     std::optional<std::chrono::nanoseconds> triedAt_;
+    std::chrono::nanoseconds lookedAt_{0};
     Error why_;
     std::int64_t frames_ = 0;
 };

@@ -11,9 +11,10 @@
 namespace ilf::devices {
 
 /// Frames on exactly the display of `wish` (`chosenDisplay` says which that is, and when none is taken), on the X
-/// server that DISPLAY names, in exactly its raster: the display is set to it where it has another mode, and its gamma
-/// ramp to a straight line. Each frame is drawn whole, unscaled, without gamma or dither, and swapped in at a vertical
-/// sync; the first is read back and compared, and refused where the driver changed a value.
+/// server that DISPLAY names, in exactly its raster: the display is set to it where it has another mode, its gamma ramp
+/// to a straight line, and its driver to full-range RGB without dithering, underscan or scaling where it offers that.
+/// Each frame is drawn whole, unscaled, without gamma or dither, and swapped in at a vertical sync; the first is read
+/// back and compared, and refused where the driver changed a value.
 ///
 /// Nothing is opened before the first call, which takes some tenths of a second and shows white for a few frames, as
 /// does the first one after a loss; call from one thread, whichever. The output is bound to the display it first found:

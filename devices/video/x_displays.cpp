@@ -23,7 +23,6 @@ using Resources = std::unique_ptr<XRRScreenResources, FreeWith<XRRFreeScreenReso
 using OutputInfo = std::unique_ptr<XRROutputInfo, FreeWith<XRRFreeOutputInfo>>;
 using CrtcInfo = std::unique_ptr<XRRCrtcInfo, FreeWith<XRRFreeCrtcInfo>>;
 using Panning = std::unique_ptr<XRRPanning, FreeWith<XRRFreePanning>>;
-using Gamma = std::unique_ptr<XRRCrtcGamma, FreeWith<XRRFreeGamma>>;
 using Transform = std::unique_ptr<XRRCrtcTransformAttributes, FreeWith<XFree>>;
 
 Resources resourcesOf(XConnection& x) { return Resources(XRRGetScreenResourcesCurrent(x.get(), x.root())); }
@@ -232,16 +231,6 @@ Result<void> setRaster(XConnection& x, const std::vector<XDisplay>& displays, co
     XUngrabServer(x.get());
     if (!x.accepted() || status != RRSetConfigSuccess) return refused("the display server refused");
     return {};
-}
-
-void straightenGamma(XConnection& x, const XDisplay& display) {
-    const int entries = XRRGetCrtcGammaSize(x.get(), display.crtc);
-    if (entries < 2) return;
-    const Gamma ramp(XRRAllocGamma(entries));
-    if (!ramp) return;
-    for (int i = 0; i < entries; ++i)
-        ramp->red[i] = ramp->green[i] = ramp->blue[i] = static_cast<unsigned short>(65535L * i / (entries - 1));
-    XRRSetCrtcGamma(x.get(), display.crtc, ramp.get());
 }
 
 }  // namespace ilf::devices

@@ -28,7 +28,8 @@ void watchDisplays(XConnection& x);
 /// that.
 Result<void> setRaster(XConnection& x, const std::vector<XDisplay>& displays, const XDisplay& display, Size raster);
 
-/// Makes the display's gamma ramp a straight line: a night light or a colour profile would change what patterns mean.
-void straightenGamma(XConnection& x, const XDisplay& display);
+/// Has pixel values sent as they are: a straight gamma ramp (no night light, no colour profile), the full range of RGB,
+/// and neither dithering, underscan nor a scaler, as far as the display's driver has such properties.
+void sendPlainly(XConnection& x, const XDisplay& display);
 
 }  // namespace ilf::devices

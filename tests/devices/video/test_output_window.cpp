@@ -10,7 +10,6 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
-#include <filesystem>
 #include <thread>
 
 #include "devices/emulators/usb_host.h"
@@ -22,6 +21,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::noise;
+using test::OtherProcess;
 using test::seen;
 using test::XServer;
 
@@ -39,38 +39,23 @@ bool soon(const auto& holds) {
     return false;
 }
 
-/// keepWhite in a process of its own, as in use.
-class GuardProcess {
-public:
-    explicit GuardProcess(const DisplayWish& wish) {
-        REQUIRE(pipe2(stop_.data(), O_CLOEXEC) == 0);
-        pid_ = fork();
-        if (pid_ == 0) {
-            prctl(PR_SET_PDEATHSIG, SIGKILL);
-            close(stop_[1]);
-            _exit(keepWhite(wish, stop_[0], [](const std::string&) {}) ? 0 : 1);
-        }
-        close(stop_[0]);
+/// Top-level windows that are mapped.
+int windows() {
+    Display* display = XOpenDisplay(nullptr);
+    if (display == nullptr) return 0;
+    Window root = 0, parent = 0;
+    Window* children = nullptr;
+    unsigned count = 0;
+    int mapped = 0;
+    XQueryTree(display, DefaultRootWindow(display), &root, &parent, &children, &count);
+    for (unsigned i = 0; i < count; ++i) {
+        XWindowAttributes is{};
+        mapped += XGetWindowAttributes(display, children[i], &is) != 0 && is.map_state == IsViewable ? 1 : 0;
     }
-    ~GuardProcess() { stopped(); }
-    GuardProcess(const GuardProcess&) = delete;
-    GuardProcess& operator=(const GuardProcess&) = delete;
-
-    pid_t pid() const { return pid_; }
-    /// Its exit code.
-    int stopped() {
-        if (pid_ <= 0) return 0;
-        close(stop_[1]);
-        int status = 0;
-        waitpid(pid_, &status, 0);
-        pid_ = -1;
-        return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-    }
-
-private:
-    std::array<int, 2> stop_{-1, -1};
-    pid_t pid_ = -1;
-};
+    if (children != nullptr) XFree(children);
+    XCloseDisplay(display);
+    return mapped;
+}
 
 #define NEEDS(server)                                                                                                  \
     if (!(server).runs()) {                                                                                            \
@@ -150,44 +135,41 @@ TEST_CASE("what covers the window is below it again at the next call") {
     XCloseDisplay(other);
 }
 
+TEST_CASE("a guard process" * doctest::skip()) {
+    CHECK(keepWhite({{}, kRaster}, OtherProcess::kToldFd, [](const std::string&) {}).has_value());
+}
+
+TEST_CASE("a player process" * doctest::skip()) {
+    const auto out = output();
+    const auto shown = out->show(noise(kRaster, 9));
+    CHECK_MESSAGE(shown.has_value(), shown.error().what);
+    OtherProcess::say(shown ? 'y' : 'n');
+    while (true)
+        pause();  // until it is killed
+}
+
 TEST_CASE("the guard lies below the output in either order, and what it shows is white when the player is killed") {
     const auto server = XServer::xvfb(kScreen);
     NEEDS(server)
-    const VideoFrame frame = noise(kRaster, 9);
     for (const bool guardFirst : {true, false}) {
         CAPTURE(guardFirst);
-        std::optional<GuardProcess> guard;
+        std::optional<OtherProcess> guard;
         const auto white = [] { return seen(0, 0, kRaster) == uniformFrame(kRaster, 255); };
         if (guardFirst) {
-            guard.emplace(DisplayWish{{}, kRaster});
+            guard.emplace("a guard process");
             CHECK(soon(white));
         }
-        std::array<int, 2> ready{};
-        REQUIRE(pipe(ready.data()) == 0);
-        const pid_t player = fork();
-        if (player == 0) {
-            prctl(PR_SET_PDEATHSIG, SIGKILL);
-            const auto out = output();
-            const char well = out->show(frame) ? 'y' : 'n';
-            if (write(ready[1], &well, 1) != 1) _exit(1);
-            while (true)
-                pause();
-        }
-        char well = 'n';
-        REQUIRE(read(ready[0], &well, 1) == 1);
-        CHECK(well == 'y');
+        OtherProcess player("a player process");
+        CHECK(player.said() == 'y');
         if (!guardFirst) {
-            guard.emplace(DisplayWish{{}, kRaster});
-            std::this_thread::sleep_for(500ms);
+            guard.emplace("a guard process");
+            CHECK(soon([] { return windows() >= 2; }));
         }
-        CHECK(seen(0, 0, kRaster) == frame);
-        kill(player, SIGKILL);
-        waitpid(player, nullptr, 0);
+        CHECK(seen(0, 0, kRaster) == noise(kRaster, 9));
+        player.killed();
         CHECK(soon(white));
         CHECK(guard->stopped() == 0);
         CHECK(soon([] { return seen(0, 0, kRaster) == uniformFrame(kRaster, 0); }));
-        close(ready[0]);
-        close(ready[1]);
     }
 }
 
@@ -197,8 +179,7 @@ TEST_CASE("a server that is killed is an error and not the end; a new one is use
     server.emplace(std::vector<std::string>{"Xvfb", "-screen", "0", kScreen});
     NEEDS(*server)
     const std::string number = server->number();
-    std::optional<GuardProcess> guard;
-    guard.emplace(DisplayWish{{}, kRaster});
+    OtherProcess guard("a guard process");
     for (std::uint32_t round = 0; round < 4; ++round) {
         const VideoFrame frame = noise(kRaster, round);
         REQUIRE(soon([&] { return out->show(frame).has_value(); }));
@@ -216,7 +197,7 @@ TEST_CASE("a server that is killed is an error and not the end; a new one is use
     }
     // The guard has followed as well.
     CHECK(soon([] { return seen(0, 0, kRaster) == uniformFrame(kRaster, 255); }));
-    CHECK(guard->stopped() == 0);
+    CHECK(guard.stopped() == 0);
 }
 
 TEST_CASE("on an emulated USB bus" * doctest::skip()) {
@@ -228,6 +209,7 @@ TEST_CASE("on an emulated USB bus" * doctest::skip()) {
     const auto shown = out->show(frame);
     REQUIRE_MESSAGE(shown.has_value(), shown.error().what);
     CHECK(seen(0, 0, kRaster) == frame);
+    OtherProcess::say('y');
 }
 
 TEST_CASE("a process that sees an emulated USB bus, and no graphics card, shows its pictures all the same") {
@@ -236,11 +218,9 @@ TEST_CASE("a process that sees an emulated USB bus, and no graphics card, shows 
 #else
     const auto server = XServer::xvfb(kScreen);
     NEEDS(server)
-    const std::string self = std::filesystem::read_symlink("/proc/self/exe");
-    const Ran ran = runProgram(self, "--no-skip --test-case='on an emulated USB bus' 2>&1",
-                               "LD_PRELOAD=" + std::string(emulators::kUsbPreload) + " DISPLAY=:" + server.number());
-    CHECK_MESSAGE(ran.code == 0, ran.out);
-    CHECK(ran.out.find("1 passed") != std::string::npos);
+    OtherProcess other("on an emulated USB bus", emulators::kUsbPreload);
+    CHECK(other.said() == 'y');
+    CHECK(other.stopped() == 0);
 #endif
 }
 

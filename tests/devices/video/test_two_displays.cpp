@@ -1,6 +1,7 @@
 // Two displays of a graphics card that is not there (Xorg's dummy driver): the operator's and the projector's.
 #include "tests/devices/video/x_server.h"  // first: Xlib's macros
 
+#include <X11/Xatom.h>
 #include <X11/extensions/Xrandr.h>
 
 #undef None
@@ -16,6 +17,7 @@
 
 #include "devices/video/display_output.h"
 #include "devices/video/x_displays.h"
+#include "tests/devices/video/edid.h"
 
 namespace ilf::devices {
 namespace {
@@ -56,6 +58,27 @@ bool straight(const std::string& connector) {
         return is;
     }
     return false;
+}
+
+RROutput outputOf(const XConnection& x, const std::string& connector) {
+    XRRScreenResources* resources = XRRGetScreenResourcesCurrent(x.get(), x.root());
+    RROutput found = 0;
+    for (int i = 0; i < resources->noutput; ++i) {
+        XRROutputInfo* info = XRRGetOutputInfo(x.get(), resources, resources->outputs[i]);
+        if (connector == info->name) found = resources->outputs[i];
+        XRRFreeOutputInfo(info);
+    }
+    XRRFreeScreenResources(resources);
+    return found;
+}
+
+/// Gives the display on a connector an EDID of its own; nothing: takes it away.
+void tell(const std::string& connector, const std::vector<std::uint8_t>& edid) {
+    const auto x = *XConnection::open();
+    const Atom property = XInternAtom(x->get(), RR_PROPERTY_RANDR_EDID, False);
+    XRRChangeOutputProperty(x->get(), outputOf(*x, connector), property, XA_INTEGER, 8, PropModeReplace, edid.data(),
+                            static_cast<int>(edid.size()));
+    REQUIRE(x->accepted());
 }
 
 #define NEEDS(card)                                                                                                    \
@@ -161,6 +184,87 @@ TEST_CASE("switched off it is an error on which nothing is shown, and back it is
         card.switchOff("DUMMY2");
     }
     CHECK(soon([&] { return out->show(frame).has_value(); }));
+}
+
+TEST_CASE("of two alike the one of the right serial number is taken, and followed from connector to connector") {
+    const TwoDisplays card;
+    NEEDS(card)
+    for (const std::string connector : {"DUMMY1", "DUMMY2"})
+        card.plug(connector);
+    card.switchOn("DUMMY1");
+    card.switchOn("DUMMY2", "--right-of DUMMY1");
+    tell("DUMMY1", test::edid("DLPLCR4500", "A-1", 0));
+    tell("DUMMY2", test::edid("DLPLCR4500", "A-2", 0));
+    CHECK(displays()->at(2).identity == DisplayIdentity{"DUMMY2", "TXN", "DLPLCR4500", "A-2"});
+
+    const auto out = *displayOutput({{"", "TXN", "", "A-2"}, kRaster});
+    const VideoFrame frame = noise(kRaster, 12);
+    const auto shown = out->show(frame);
+    REQUIRE_MESSAGE(shown.has_value(), shown.error().what);
+    CHECK(out->display().connector == "DUMMY2");
+    CHECK(seen(kDesk.width + kRaster.width, 0, kRaster) == frame);
+    CHECK(seen(kDesk.width, 0, kRaster) == uniformFrame(kRaster, 0));
+
+    // Its cable goes from one connector to the other, and the other display's the other way round.
+    for (const std::string connector : {"DUMMY1", "DUMMY2"})
+        card.switchOff(connector);
+    CHECK(!out->mode());
+    tell("DUMMY1", test::edid("DLPLCR4500", "A-2", 0));
+    tell("DUMMY2", test::edid("DLPLCR4500", "A-1", 0));
+    card.switchOn("DUMMY2");
+    std::this_thread::sleep_for(600ms);
+    CHECK(!out->mode());
+    card.switchOn("DUMMY1", "--right-of DUMMY2");
+    REQUIRE(soon([&] { return out->show(frame).has_value(); }));
+    CHECK(out->display() == DisplayIdentity{"DUMMY1", "TXN", "DLPLCR4500", "A-2"});
+    CHECK(seen(kDesk.width + kRaster.width, 0, kRaster) == frame);
+    CHECK(seen(kDesk.width, 0, kRaster) == uniformFrame(kRaster, 0));
+}
+
+TEST_CASE("a driver that offers full-range RGB and no dithering is told so, and nothing it does not offer") {
+    const TwoDisplays card;
+    NEEDS(card)
+    card.plug("DUMMY1");
+    card.switchOn("DUMMY1");
+    const auto x = *XConnection::open();
+    const RROutput output1 = outputOf(*x, "DUMMY1");
+    const auto atom = [&](const char* name) { return XInternAtom(x->get(), name, False); };
+    const auto offer = [&](const char* name, std::vector<long> values) {
+        XRRConfigureOutputProperty(x->get(), output1, atom(name), False, False, static_cast<int>(values.size()),
+                                   values.data());
+        const Atom first = static_cast<Atom>(values.front());
+        XRRChangeOutputProperty(x->get(), output1, atom(name), XA_ATOM, 32, PropModeReplace,
+                                reinterpret_cast<const unsigned char*>(&first), 1);
+    };
+    const auto is = [&](const char* name) {
+        Atom type = 0;
+        int format = 0;
+        unsigned long items = 0, left = 0;
+        unsigned char* bytes = nullptr;
+        XRRGetOutputProperty(x->get(), output1, atom(name), 0, 1, False, False, XA_ATOM, &type, &format, &items, &left,
+                             &bytes);
+        char* value =
+            bytes != nullptr && items == 1 ? XGetAtomName(x->get(), *reinterpret_cast<Atom*>(bytes)) : nullptr;
+        const std::string name_ = value != nullptr ? value : "";
+        if (value != nullptr) XFree(value);
+        if (bytes != nullptr) XFree(bytes);
+        return name_;
+    };
+    const auto value = [&](const char* name) { return static_cast<long>(atom(name)); };
+    offer("Broadcast RGB", {value("Automatic"), value("Full"), value("Limited 16:235")});
+    offer("dithering mode", {value("auto"), value("off")});
+    offer("underscan", {value("auto"), value("on")});
+    REQUIRE(x->accepted());
+    REQUIRE(is("Broadcast RGB") == "Automatic");
+    const auto out = output();
+    REQUIRE(out->mode().has_value());
+    CHECK(is("Broadcast RGB") == "Full");
+    CHECK(is("dithering mode") == "off");
+    CHECK(is("underscan") == "auto");
+
+    // A night light that sets in later is noticed within a second.
+    REQUIRE(card.xrandr("--output DUMMY1 --gamma 1:0.7:0.5"));
+    CHECK(soon([&] { return out->mode() && straight("DUMMY1"); }));
 }
 
 TEST_CASE("a display moved under the window is an error, and found again where it is") {

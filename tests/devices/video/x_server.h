@@ -29,7 +29,7 @@ public:
     explicit XServer(std::vector<std::string> arguments, const std::string& number = "") {
         std::array<int, 2> told{};
         if (pipe2(told.data(), O_CLOEXEC) != 0) return;
-        arguments.insert(arguments.end(), {"-displayfd", "9", "-noreset", "-nolisten", "tcp"});
+        arguments.insert(arguments.end(), {"-displayfd", "200", "-noreset", "-nolisten", "tcp"});
         if (!number.empty()) arguments.insert(arguments.begin() + 1, ":" + number);
         std::vector<char*> argv;
         for (std::string& argument : arguments)
@@ -41,7 +41,7 @@ public:
             const int nothing = open("/dev/null", O_RDWR);
             for (const int fd : {0, 1, 2})
                 dup2(nothing, fd);
-            dup2(told[1], 9);
+            dup2(told[1], 200);
             unsetenv("LD_PRELOAD");
             execvp(argv[0], argv.data());
             _exit(127);
@@ -147,6 +147,71 @@ private:
     TemporaryDirectory folder_;
     std::optional<XServer> server_;
     bool ready_ = false;
+};
+
+/// This program again, as another process that runs nothing but the (skipped) test case of that name, which talks to
+/// the test through two pipes. Killed where nobody stopped it.
+class OtherProcess {
+public:
+    static constexpr int kToldFd = 200, kSaysFd = 201;  // beyond what a test has open
+
+    explicit OtherProcess(std::string testCase, const std::string& preload = "") {
+        std::array<int, 2> tell{}, says{};
+        if (pipe2(tell.data(), O_CLOEXEC) != 0 || pipe2(says.data(), O_CLOEXEC) != 0) return;
+        testCase = "--test-case=" + testCase;
+        std::array<char, 11> all{"--no-skip"};
+        std::array<char, 16> self{"/proc/self/exe"};
+        std::array<char, 10> quiet{"--minimal"};
+        std::array<char*, 5> argv{self.data(), all.data(), quiet.data(), testCase.data(), nullptr};
+        pid_ = fork();
+        if (pid_ == 0) {
+            prctl(PR_SET_PDEATHSIG, SIGKILL);
+            dup2(tell[0], kToldFd);
+            dup2(says[1], kSaysFd);
+            if (!preload.empty()) setenv("LD_PRELOAD", preload.c_str(), 1);
+            execv(argv[0], argv.data());
+            _exit(127);
+        }
+        close(tell[0]);
+        close(says[1]);
+        tell_ = tell[1];
+        says_ = says[0];
+    }
+    ~OtherProcess() {
+        killed();
+        close(tell_);
+        close(says_);
+    }
+    OtherProcess(const OtherProcess&) = delete;
+    OtherProcess& operator=(const OtherProcess&) = delete;
+
+    /// Waits, 20 seconds at most, for one letter that it says; 0: it said nothing.
+    char said() const {
+        pollfd waited{says_, POLLIN, 0};
+        char letter = 0;
+        return poll(&waited, 1, 20000) == 1 && read(says_, &letter, 1) == 1 ? letter : '\0';
+    }
+    static void say(char letter) { (void)!write(kSaysFd, &letter, 1); }
+    void killed() {
+        if (pid_ <= 0) return;
+        ::kill(pid_, SIGKILL);
+        waitpid(pid_, nullptr, 0);
+        pid_ = -1;
+    }
+    /// Closes the pipe it listens to; its exit code.
+    int stopped() {
+        if (pid_ <= 0) return -1;
+        close(tell_);
+        tell_ = -1;
+        int status = 0;
+        waitpid(pid_, &status, 0);
+        pid_ = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+    }
+
+private:
+    pid_t pid_ = -1;
+    int tell_ = -1, says_ = -1;
 };
 
 /// What a part of the desktop shows now, as another program sees it; empty where nothing could be read.
