@@ -86,7 +86,7 @@ public:
     }
 
     ~GlxWindow() override {
-        if (x_.lost()) return;  // it went with its server; Mesa must not be asked to talk about it
+        // Also without its server: the few requests that this makes then go nowhere.
         glXMakeContextCurrent(x_.get(), None, None, nullptr);
         glXDestroyContext(x_.get(), context_);
         glXDestroyWindow(x_.get(), surface_);
