@@ -15,8 +15,8 @@
 // handlers, no locale, no working folder, nothing on standard output, no `exit`, no exception across a call.
 //
 // Time. Every call has a limit, written with it; one that takes longer is told to the operator and counts as failed
-// (steady white and close excepted: they still did what they should). A call that never returns stops the player, and
-// one that crashes kills it; its supervisor then starts another, which begins in steady white.
+// (steady white and close excepted: they still did what they should). A call that does not return within five seconds
+// more ends the player, as one that crashes does; its supervisor starts another, which begins in steady white.
 //
 // Safe light. The projector is the room's light: the safe state is STEADY WHITE, all pixels fully lit all the time,
 // never black. It is what a projector shows after `open`, after `stop`, after `steady_white`, after `close`, and by
@@ -44,8 +44,8 @@ extern "C" {
 #define ILF_PLUGIN_EXPORT __attribute__((visibility("default")))
 #endif
 
-/// What a call returns. After anything but ILF_OK and ILF_REFUSED the host takes nothing for granted and calls
-/// `steady_white`, then `close`.
+/// What a call returns. After anything but ILF_OK the host takes nothing for granted and calls `steady_white`; if that
+/// fails as well, `close`, and `open` again a second later.
 typedef int32_t ilf_code;
 enum {
     ILF_OK = 0,

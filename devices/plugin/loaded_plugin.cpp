@@ -120,6 +120,7 @@ Result<std::vector<ProjectorPlugin::Place>> ProjectorPlugin::list(const Clock& c
     if (took > kLongest)
         return fail(Fault::device, name() + " " + tookTooLong("list its projectors", took, kLongest) + ".");
     std::vector<Place> found;
+    found.reserve(kMostPlaces);
     for (std::uint32_t i = 0; i < std::min(count, kMostPlaces); ++i)
         found.push_back(
             {pluginText(places[i].id, sizeof places[i].id), pluginText(places[i].name, sizeof places[i].name)});

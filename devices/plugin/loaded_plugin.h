@@ -14,6 +14,7 @@
 #include "core/base/quantity.h"
 #include "core/base/result.h"
 #include "devices/clock.h"
+#include "devices/plugin/call_watch.h"
 #include "devices/plugin/illuminatedfocus_projector.h"
 
 namespace ilf::devices {
@@ -97,7 +98,8 @@ public:
     /// `place` and `options` as the plugin's `open` takes them. Errors: what the plugin says, or a description that
     /// cannot be.
     static Result<std::unique_ptr<PluginProjector>> open(const ProjectorPlugin& plugin, const std::string& place,
-                                                         const std::string& options, Clock clock = Clock::steady());
+                                                         const std::string& options, Clock clock = Clock::steady(),
+                                                         HangingCall hanging = {});
     /// Steady white, then lets it go.
     ~PluginProjector();
     PluginProjector(const PluginProjector&) = delete;
@@ -128,12 +130,14 @@ private:
         const char* what;  ///< "upload a slot's picture"
         Second longest;
     };
-    PluginProjector(const ProjectorPlugin& plugin, Clock clock) : plugin_(plugin), clock_(std::move(clock)) {}
+    PluginProjector(const ProjectorPlugin& plugin, Clock clock, HangingCall hanging)
+        : plugin_(plugin), clock_(std::move(clock)), watch_(std::move(hanging)) {}
     Result<void> told(const Call& call, const std::function<ilf_code(ilf_message*)>& order);
     Result<void> described();
 
     ProjectorPlugin plugin_;
     Clock clock_;
+    CallWatch watch_;
     ilf_projector* projector_ = nullptr;
     std::string name_, remark_;
     PluginDescription description_;
@@ -143,6 +147,7 @@ private:
 
 /// Loads the plugin `file` (once; later it is there already) and opens its projector: what a rig's fields are for.
 Result<std::unique_ptr<PluginProjector>> openedPlugin(const std::filesystem::path& file, const std::string& place,
-                                                      const std::string& options, Clock clock = Clock::steady());
+                                                      const std::string& options, Clock clock = Clock::steady(),
+                                                      HangingCall hanging = {});
 
 }  // namespace ilf::devices

@@ -9,7 +9,7 @@ namespace ilf::devices {
 namespace {
 
 constexpr std::uint32_t kMostPixelsASide = 16384, kMostSlots = 100'000;
-constexpr double kMostSlotRate_Hz = 1e6;
+constexpr double kMostSlotRate = 1e6;  // Hz
 constexpr std::uint32_t kTriggers = ILF_TRIGGER_OWN_CLOCK | ILF_TRIGGER_EACH_SLOT | ILF_TRIGGER_EACH_SWEEP;
 
 template <class T>
@@ -31,7 +31,7 @@ std::string impossible(const ilf_description& d) {
         if (depth.bits < 1 || depth.bits > 8) return "pictures of " + std::to_string(depth.bits) + " bits";
         // Written so that a rate that is not a number is caught too.
         if (!(depth.slowest_hz >= 0.0 && depth.slowest_hz <= depth.fastest_hz && depth.fastest_hz > 0.0 &&
-              depth.fastest_hz <= kMostSlotRate_Hz))
+              depth.fastest_hz <= kMostSlotRate))
             return "slot rates that cannot be";
     }
     return {};
@@ -61,9 +61,12 @@ Result<void> PluginProjector::told(const Call& call, const std::function<ilf_cod
     ilf_message message{};
     const auto begun = clock_.now();
     ilf_code code = ILF_FAILED;
+    watch_.began(plugin_.name() + " was asked to " + call.what + " and did not come back", call.longest);
     try {
         code = order(&message);
+        watch_.ended();
     } catch (...) {
+        watch_.ended();
         return fail(Fault::device, plugin_.name() + " threw an exception when asked to " + call.what +
                                        ", which no plugin may; tell its author.");
     }
@@ -75,8 +78,9 @@ Result<void> PluginProjector::told(const Call& call, const std::function<ilf_cod
 }
 
 Result<std::unique_ptr<PluginProjector>> PluginProjector::open(const ProjectorPlugin& plugin, const std::string& place,
-                                                               const std::string& options, Clock clock) {
-    std::unique_ptr<PluginProjector> made(new PluginProjector(plugin, std::move(clock)));
+                                                               const std::string& options, Clock clock,
+                                                               HangingCall hanging) {
+    std::unique_ptr<PluginProjector> made(new PluginProjector(plugin, std::move(clock), std::move(hanging)));
     ilf_projector* opened = nullptr;
     bool went = false;
     auto there = made->told({"open the projector", 40.0_s}, [&](ilf_message* message) {
@@ -95,21 +99,24 @@ Result<std::unique_ptr<PluginProjector>> PluginProjector::open(const ProjectorPl
 
 PluginProjector::~PluginProjector() {
     if (projector_ == nullptr) return;
-    ilf_message message{};
-    try {
-        (void)plugin_.calls().steady_white(projector_, &message);
-    } catch (...) {  // closing is left
-    }
-    try {
-        (void)plugin_.calls().close(projector_, &message);
-    } catch (...) {  // nothing is left
-    }
+    const auto tried = [](const auto& order) {
+        try {
+            return order().has_value();
+        } catch (const std::exception&) {
+            return false;  // out of memory: closing is left, then nothing
+        }
+    };
+    (void)tried([&] { return steadyWhite(); });
+    (void)tried([&] {
+        return told({"close the projector", 2.0_s},
+                    [&](ilf_message* message) { return plugin_.calls().close(projector_, message); });
+    });
 }
 
 Result<void> PluginProjector::described() {
     auto d = sized<ilf_description>();
-    const auto answered = told({"describe the projector", 1.0_s},
-                               [&](ilf_message* message) { return plugin_.calls().describe(projector_, &d, message); });
+    auto answered = told({"describe the projector", 1.0_s},
+                         [&](ilf_message* message) { return plugin_.calls().describe(projector_, &d, message); });
     if (!answered) return answered;
     if (const std::string wrong = impossible(d); !wrong.empty())
         return fail(Fault::device, plugin_.name() + " describes a projector that cannot be (" + wrong +
@@ -160,9 +167,8 @@ Result<void> PluginProjector::configure(const PluginConfiguration& how) {
     wanted.bits = static_cast<std::uint32_t>(how.bits);
     wanted.slot_rate_hz = how.slotRate.si();
     wanted.trigger_timeout_ns = static_cast<std::uint64_t>(std::llround(how.triggerTimeout.in(1.0_ms) * 1e6));
-    const auto done = told({"time its slots so", 2.0_s}, [&](ilf_message* message) {
-        return plugin_.calls().configure(projector_, &wanted, message);
-    });
+    auto done = told({"time its slots so", 2.0_s},
+                     [&](ilf_message* message) { return plugin_.calls().configure(projector_, &wanted, message); });
     if (done) sweep_ = how.slots / how.slotRate;
     return done;
 }
@@ -218,7 +224,7 @@ Result<PluginStatus> PluginProjector::status() {
                                [&](ilf_message* message) { return plugin_.calls().status(projector_, &s, message); });
     if (!answered) return tl::unexpected(answered.error());
     const bool counts = s.frames_out <= s.frames_in && s.frames_waiting <= s.frames_in - s.frames_out;
-    if (!counts || s.state > ILF_STATE_DARK || !(s.slot_rate_hz >= 0.0 && s.slot_rate_hz <= kMostSlotRate_Hz))
+    if (!counts || s.state > ILF_STATE_DARK || !(s.slot_rate_hz >= 0.0 && s.slot_rate_hz <= kMostSlotRate))
         return fail(Fault::device, plugin_.name() + " says of the projector what cannot be (" +
                                        std::to_string(s.frames_out) + " frames shown of " +
                                        std::to_string(s.frames_in) + ", state " + std::to_string(s.state) +
@@ -241,10 +247,10 @@ Result<PluginStatus> PluginProjector::status() {
 }
 
 Result<std::unique_ptr<PluginProjector>> openedPlugin(const std::filesystem::path& file, const std::string& place,
-                                                      const std::string& options, Clock clock) {
+                                                      const std::string& options, Clock clock, HangingCall hanging) {
     const auto plugin = ProjectorPlugin::load(file);
     if (!plugin) return tl::unexpected(plugin.error());
-    return PluginProjector::open(*plugin, place, options, std::move(clock));
+    return PluginProjector::open(*plugin, place, options, std::move(clock), std::move(hanging));
 }
 
 }  // namespace ilf::devices

@@ -28,10 +28,12 @@ Image<std::uint8_t> picture(const LightImage& image, int bits) {
 
 std::vector<Image<std::uint8_t>> slotPictures(const Program& program, int bits) {
     std::vector<Image<std::uint8_t>> images;
+    images.reserve(program.images.size());
     for (const LightImage& image : program.images)
         images.push_back(picture(image, bits));
     const auto dark = uniform(program.projector, 0);
     std::vector<Image<std::uint8_t>> slots;
+    slots.reserve(program.imageOfSlot.size());
     for (const int image : program.imageOfSlot)
         slots.push_back(image == Program::kDark ? dark : images[static_cast<std::size_t>(image)]);
     return slots;

@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <future>
 #include <limits>
 #include <stdexcept>
 
@@ -103,11 +104,12 @@ void behave() {
 
 const ilf_projector_plugin_v1* entry(std::uint32_t) { return &the.table; }
 
-Result<std::unique_ptr<PluginProjector>> opened() {
+Result<std::unique_ptr<PluginProjector>> opened(HangingCall hanging = {}) {
     const auto plugin = ProjectorPlugin::from(entry, "/opt/maker.so");
     REQUIRE(plugin);
     return PluginProjector::open(*plugin, "slot 1", "",
-                                 {[] { return the.now; }, [](std::chrono::nanoseconds time) { the.now += time; }});
+                                 {[] { return the.now; }, [](std::chrono::nanoseconds time) { the.now += time; }},
+                                 std::move(hanging));
 }
 
 std::string openRefusal() {
@@ -219,7 +221,7 @@ TEST_CASE("plugin: descriptions that cannot be are refused, and the projector is
     const auto with = [](auto change) {
         behave();
         change(the.description);
-        const auto why = openRefusal();
+        auto why = openRefusal();
         CHECK(the.log == std::vector<std::string>{"open", "describe", "steady_white", "close"});
         return why;
     };
@@ -273,6 +275,29 @@ TEST_CASE("plugin: any call may fail, throw or be late, and is told; late white 
     the.throws = true;  // closing throws as well
     projector->reset();
     CHECK(the.log.back() == "close");
+}
+
+TEST_CASE("plugin: a call that does not come back is noticed while it hangs, and one that does is not") {
+    behave();
+    static std::promise<std::string> noticed;
+    noticed = {};
+    the.table.status = [](ilf_projector*, ilf_status* s, ilf_message*) -> ilf_code {
+        s->state = ILF_STATE_STEADY_WHITE;
+        // Comes back only once somebody noticed.
+        return noticed.get_future().wait_for(std::chrono::seconds(60)) == std::future_status::ready ? ILF_OK
+                                                                                                    : ILF_FAILED;
+    };
+    std::vector<std::string> told;
+    const auto projector = opened({[&](const std::string& sentence) {
+                                       told.push_back(sentence);
+                                       noticed.set_value(sentence);
+                                   },
+                                   0.0_s});
+    REQUIRE(projector);
+    REQUIRE((*projector)->steadyWhite());
+    REQUIRE((*projector)->status());
+    CHECK(told == std::vector<std::string>{
+                      "scripted 2 (maker.so) was asked to say how the projector is and did not come back"});
 }
 
 TEST_CASE("plugin: counters and states that cannot be are told, and errors in words") {
