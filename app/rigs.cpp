@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/plan/projector.h"
 #include "projects/wearer_rig.h"
 
 namespace ilf::app {
@@ -41,9 +42,19 @@ Rig emulatedRig() {
     return rig;
 }
 
+bool isEmulatedRig(std::string_view word) {
+    constexpr std::string_view name = kEmulatedRig;
+    if (!word.starts_with(name)) return false;
+    word.remove_prefix(name.size());
+    return word.empty() || (word.size() == 2 && word[0] == ':' && word[1] >= '1' && word[1] <= '8');
+}
+
 Result<Rig> rigFrom(const std::string& wordOrFile) {
     if (wordOrFile == kSimulatedRig) return Rig{};
-    if (wordOrFile == kEmulatedRig) return emulatedRig();
+    if (isEmulatedRig(wordOrFile)) {
+        if (wordOrFile == kEmulatedRig) return emulatedRig();
+        return withProjector(emulatedRig(), ProjectorKind::lightCrafter4500, wordOrFile.back() - '0');
+    }
     return projects::readRig(wordOrFile);
 }
 

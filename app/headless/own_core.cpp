@@ -42,7 +42,7 @@ OwnCore::OwnCore(std::string coreProgram, std::filesystem::path directory)
 
 OwnCore::~OwnCore() {
     const std::string stop =
-        "'" + coreProgram_ + "' --runtime-dir '" + directory_.string() + "' --stop >/dev/null 2>&1";
+        "'" + coreProgram_ + "' --runtime-dir '" + directory_.string() + "' --stop --release-display >/dev/null 2>&1";
     (void)std::system(stop.c_str());
     std::error_code ignored;
     std::filesystem::remove_all(directory_, ignored);

@@ -13,20 +13,15 @@ std::vector<LightImage> statedLight(const Program& program, const Rig& rig) {
     return devices::dlpc350::intendedLight(program, rig.kind == ProjectorKind::lightCrafter4500 ? rig.bits : 8);
 }
 
-Dioptre mean(const std::vector<Dioptre>& powers, double from, double to) {
-    const auto count = static_cast<double>(powers.size());
-    double sum = 0.0;
-    // Samples lie evenly over the sweep and repeat; at least one, however short the slot.
-    const auto first = static_cast<long>(std::lround(from * count));
-    const long last = std::max(first + 1, std::lround(to * count));
-    for (long i = first; i < last; ++i) {
-        const long turn = i % static_cast<long>(powers.size());
-        sum += powers[static_cast<std::size_t>(turn < 0 ? turn + static_cast<long>(powers.size()) : turn)].si();
-    }
-    return Dioptre::fromSi(sum / static_cast<double>(last - first));
-}
-
 }  // namespace
+
+Harmonics receivedPower(const std::vector<Dioptre>& powers) {
+    // Up to some 2 kHz at 60 sweeps a second: a lens follows nothing faster.
+    constexpr std::size_t kHarmonics = 32;
+    std::vector<double> samples(powers.size());
+    std::ranges::transform(powers, samples.begin(), [](Dioptre power) { return power.si(); });
+    return harmonicsOf(samples, std::min(kHarmonics, (samples.size() - 1) / 2));
+}
 
 std::vector<devices::SlotLight> intendedSlots(const Program& program, const Rig& rig) {
     std::vector<devices::SlotLight> slots;
@@ -84,6 +79,7 @@ LensDeviation deviationOf(const std::vector<Dioptre>& powers, Second sweep, cons
                           const devices::LightComparison& comparison) {
     LensDeviation found;
     const auto count = static_cast<double>(powers.size());
+    const Harmonics received = receivedPower(powers);
     const auto away = [&](std::size_t i) {
         const Second t = static_cast<double>(i) / count * sweep - program.projectorDelay;
         return (powers[i] - program.waveform.powerAt(t)).si();
@@ -103,7 +99,8 @@ LensDeviation deviationOf(const std::vector<Dioptre>& powers, Second sweep, cons
         const Second lit = length + comparison.slots[slot].longer;
         const double predicted =
             program.waveform.power.meanOver(due * program.waveform.rate, length * program.waveform.rate);
-        found.slots.push_back({Dioptre::fromSi(predicted), mean(powers, start / sweep, (start + lit) / sweep)});
+        found.slots.push_back(
+            {Dioptre::fromSi(predicted), Dioptre::fromSi(received.meanOver(start / sweep, lit / sweep))});
         inSlots += std::pow((found.slots.back().received - found.slots.back().predicted).si(), 2);
     }
     if (!found.slots.empty())

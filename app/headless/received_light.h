@@ -20,6 +20,9 @@ struct ReceivedSweep {
 std::vector<devices::SlotLight> intendedSlots(const Program& program, const Rig& rig);
 std::vector<devices::SlotLight> receivedSlots(const ReceivedSweep& sweep);
 
+/// A lens's powers over a sweep from its trigger, as a Fourier series. Precondition: `powers` is not empty.
+Harmonics receivedPower(const std::vector<Dioptre>& powers);
+
 /// What a program loses to the bits of the projector's pictures, as shares of full light. No difference of light
 /// received: the plan states it.
 struct Quantisation {

@@ -1,17 +1,10 @@
 #include "app/headless/received_view.h"
 
-#include <algorithm>
-
 namespace ilf::app {
 namespace {
 
-/// Up to some 2 kHz at 60 sweeps a second: a lens follows nothing faster.
-constexpr std::size_t kHarmonics = 32;
-
 Waveform receivedWave(Waveform wave, const std::vector<Dioptre>& powers, Second sweep) {
-    std::vector<double> samples(powers.size());
-    std::ranges::transform(powers, samples.begin(), [](Dioptre power) { return power.si(); });
-    wave.power = harmonicsOf(samples, std::min(kHarmonics, (samples.size() - 1) / 2));
+    wave.power = receivedPower(powers);
     wave.rate = 1.0 / sweep;
     wave.drive = {};
     return wave;

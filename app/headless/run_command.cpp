@@ -84,7 +84,7 @@ Result<std::vector<devices::RigMishap>> mishapsOf(const RunOptions& options) {
         if (!mishap) return tl::unexpected(mishap.error());
         mishaps.push_back(*std::move(mishap));
     }
-    if (!mishaps.empty() && options.rig.rig != kEmulatedRig)
+    if (!mishaps.empty() && !isEmulatedRig(options.rig.rig))
         return fail(Fault::outOfRange, "Mishaps befall the emulated rig only: add --rig emulated.");
     return mishaps;
 }

@@ -1,5 +1,7 @@
 #include "app/lens/rig_choice.h"
 
+#include <filesystem>
+
 #include "app/rigs.h"
 #include "core/plan/projector.h"
 
@@ -33,7 +35,7 @@ Result<devices::SimulatedLens> simulatedLens(const RigChoice& choice) {
                     "\"" + choice.simulated +
                         "\" is no simulated lens: write slow, datasheet, lively, clean, dirty or ideal.");
     }
-    if (choice.rig == kEmulatedRig && !lens->preset) {
+    if (isEmulatedRig(choice.rig) && !lens->preset) {
         return fail(Fault::outOfRange, "The ideal lens is told powers and takes no current, so it cannot hang on the "
                                        "emulated rig's cables: choose slow, datasheet, lively, clean or dirty.");
     }
@@ -44,10 +46,19 @@ Result<std::vector<std::string>> coreArguments(const RigChoice& choice) {
     const auto lens = simulatedLens(choice);
     if (!lens) return tl::unexpected(lens.error());
     auto arguments = devices::coreArguments(*lens);
-    if (!choice.rig.empty()) {
-        arguments.emplace_back("--rig");
-        arguments.push_back(choice.rig);
+    if (choice.rig.empty() || choice.rig == kSimulatedRig) return arguments;
+    std::string rig = choice.rig;
+    if (choice.bits && isEmulatedRig(rig)) {
+        rig = std::string(kEmulatedRig) + ":" + std::to_string(*choice.bits);
+    } else if (choice.bits) {
+        return fail(Fault::outOfRange,
+                    "How many bits the pictures of a rig's projector have is said in its file, which "
+                    "the output core reads as well: change it there, or leave --bits out.");
     }
+    std::error_code ignored;  // a core is started from anywhere
+    if (!isEmulatedRig(rig)) rig = std::filesystem::absolute(rig, ignored).string();
+    arguments.emplace_back("--rig");
+    arguments.push_back(std::move(rig));
     return arguments;
 }
 
@@ -64,7 +75,7 @@ Result<Plan> plannedFor(Document& document, const RigChoice& choice) {
 }
 
 std::string inWords(const RigChoice& choice) {
-    if (choice.rig == kEmulatedRig) return "the emulated rig";
+    if (isEmulatedRig(choice.rig)) return "the emulated rig";
     if (choice.rig.empty() || choice.rig == kSimulatedRig) return "the simulated devices";
     return "the rig of " + choice.rig;
 }

@@ -10,11 +10,11 @@
 namespace ilf::app {
 
 struct RigChoice {
-    std::string rig;          ///< simulated, emulated or a rig's file, instead of the document's; empty: the document's
-    std::optional<int> bits;  ///< of a slot's picture, with as many slots as the projector then shows
-    std::string waves;        ///< how waves are chosen, instead of the rig's; empty: the rig's
-    std::string file;         ///< calibration, instead of the rig's
-    std::string simulated;    ///< the lens that is simulated: a preset or ideal; empty: the usual one
+    std::string rig = {};  ///< simulated, emulated or a rig's file, instead of the document's; empty: the document's
+    std::optional<int> bits = {};  ///< of a slot's picture, with as many slots as the projector then shows
+    std::string waves = {};        ///< how waves are chosen, instead of the rig's; empty: the rig's
+    std::string file = {};         ///< calibration, instead of the rig's
+    std::string simulated = {};    ///< the lens that is simulated: a preset or ideal; empty: the usual one
 };
 
 /// The rig with what was typed in place of its own.

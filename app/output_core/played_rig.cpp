@@ -11,12 +11,12 @@ namespace ilf::app {
 Result<PlayedRig> playedRig(const std::string& wordOrFile) {
     auto rig = rigFrom(wordOrFile);
     if (!rig) return tl::unexpected(rig.error());
-    const Machine machine = wordOrFile == kEmulatedRig ? Machine::emulated
-                            : rig->devices             ? Machine::real
-                                                       : Machine::simulated;
+    const Machine machine = isEmulatedRig(wordOrFile) ? Machine::emulated
+                            : rig->devices            ? Machine::real
+                                                      : Machine::simulated;
     // Processes of the core are started from elsewhere.
     std::error_code ignored;
-    const bool isWord = wordOrFile == kEmulatedRig || wordOrFile == kSimulatedRig;
+    const bool isWord = isEmulatedRig(wordOrFile) || wordOrFile == kSimulatedRig;
     std::string word = isWord ? wordOrFile : std::filesystem::absolute(wordOrFile, ignored).string();
     return PlayedRig{std::move(word), *std::move(rig), machine};
 }

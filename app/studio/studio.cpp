@@ -43,8 +43,9 @@ Size windowSize(const std::string& text) {
 /// As far as a core tells: one real rig is not told from another.
 bool playsOn(const devices::Status& core, const RigChoice& choice) {
     if (choice.rig.empty()) return true;
-    if (choice.rig == kEmulatedRig) return core.emulated;
-    return choice.rig == kSimulatedRig ? core.simulated && !core.emulated : !core.simulated;
+    if (isEmulatedRig(choice.rig)) return core.emulated;
+    const auto rig = rigFrom(choice.rig);
+    return rig && rig->devices ? !core.simulated : core.simulated && !core.emulated;
 }
 
 ui::ViewMode startMode(const std::string& view) {
