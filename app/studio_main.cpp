@@ -6,6 +6,7 @@
 #include "app/headless/doctor_command.h"
 #include "app/headless/evaluate_command.h"
 #include "app/headless/lens_command.h"
+#include "app/headless/measure_command.h"
 #include "app/headless/optics_command.h"
 #include "app/headless/plan_command.h"
 #include "app/headless/render_command.h"
@@ -223,6 +224,35 @@ void addDoctor(CLI::App& app, DoctorOptions& options) {
     doctor->add_option("--root", options.root, "Another system's files, for tests")->group("");
 }
 
+void addMeasure(CLI::App& app, MeasureDelayOptions& delay, MeasureRigOptions& rig) {
+    auto* measure = app.add_subcommand("measure", "What a photodiode tells: a projector's delay, a lens's powers and waves");
+    measure->require_subcommand(1);
+    auto* delays = measure->add_subcommand("delay", "Of light after its trigger, from a recording of both");
+    delays->add_option("RECORDING", delay.recording, ".csv (seconds, trigger, light), .wav or .flac")->required();
+    delays->add_option("--frames", delay.frames_Hz, "Of the pattern a second, where there is no trigger")
+        ->check(CLI::Range(0.0, 10000.0));
+    delays->add_option("--shortest", delay.shortest_ms, "Milliseconds; edges nearer than this are one")
+        ->check(CLI::Range(0.01, 1000.0))
+        ->capture_default_str();
+    delays->add_flag("--json", delay.json, "As JSON");
+    auto* rigs = measure->add_subcommand("rig", "Step by step: the projector's delay, one lens at rest and in waves");
+    rigs->add_option("--rig", rig.rig, "emulated, or a rig's file")->capture_default_str();
+    rigs->add_option("--eye", rig.eye, "Whose lens is before the photodiode")
+        ->check(CLI::IsMember({"left", "right"}))
+        ->capture_default_str();
+    rigs->add_option("--known", rig.known, "Powers that are known: lines of milliamperes, dioptres");
+    rigs->add_option("--temperature", rig.temperature_C, "Of the lens, in degrees C")->check(CLI::Range(-20.0, 80.0));
+    rigs->add_option("--rate", rig.rate_Hz, "Sweeps a second")->check(CLI::Range(10.0, 1000.0))->capture_default_str();
+    rigs->add_option("--waves", rig.waves, "How many, for a model")->check(CLI::Range(9, 10000))->capture_default_str();
+    rigs->add_option("--model", rig.model, "Of the lens");
+    rigs->add_option("--serial", rig.serial, "Of the lens");
+    rigs->add_flag("--no-projector", rig.withoutProjector, "Leave the projector's delay as it is");
+    rigs->add_flag("--yes", rig.yes, "Everything is connected: ask nothing");
+    rigs->add_flag("--replace", rig.replace, "Overwrite files that are there");
+    rigs->add_option("-o,--out", rig.lens, "Wave database to write (.ilflens)")->required();
+    rigs->add_option("--save-rig", rig.savedRig, "Rig to write (.json), with powers, delay and waves");
+}
+
 void addStudio(CLI::App& app, StudioOptions& options) {
     app.add_option("FILE", options.file, "Project, picture or video to open");
     app.add_option("--scale", options.scale, "Size of the window's text and controls (0: the display's own)")
@@ -269,6 +299,9 @@ int main(int argc, char** argv) {
     SeamsOptions seams;
     addSeams(app, seams);
     addLens(app, lens);
+    MeasureDelayOptions measuredDelay;
+    MeasureRigOptions measuredRig;
+    addMeasure(app, measuredDelay, measuredRig);
     DoctorOptions doctor;
     addDoctor(app, doctor);
     RigChoice validatedRig;
@@ -301,6 +334,9 @@ int main(int argc, char** argv) {
             return optics->got_subcommand("table") ? opticsTableCommand(opticsTable) : opticsPlotCommand(opticsPlot);
         }
         if (app.got_subcommand("lens")) return runLens(*app.get_subcommand("lens"), lens);
+        if (app.got_subcommand("measure"))
+            return app.get_subcommand("measure")->got_subcommand("rig") ? measureRigCommand(measuredRig)
+                                                                        : measureDelayCommand(measuredDelay);
         if (app.got_subcommand("evaluate")) return evaluateCommand(evaluation);
         if (app.got_subcommand("validate")) return validateCommand(validated, validatedRig);
         return runStudio(studio);

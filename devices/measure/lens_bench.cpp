@@ -61,6 +61,12 @@ Result<Value> LensBench::rested(Result<Value> result) {
     return result;
 }
 
+Result<HeardBlock> LensBench::listened() {
+    if (setup_.stop && setup_.stop()) return fail(Fault::device, "Measuring was stopped; the lenses rest.");
+    if (auto well = output_.heartbeat(); !well) return tl::unexpected(std::move(well.error()));
+    return input_.take();
+}
+
 Result<void> LensBench::played(const Harmonics& drive_A, Hertz rate) {
     const auto wave = [&](bool measured, const LensChannel& channel) {
         Waveform driven;
@@ -76,8 +82,7 @@ Result<void> LensBench::played(const Harmonics& drive_A, Hertz rate) {
     const auto until =
         clock_.now() + std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * change->wait().si())) + kUnsure;
     while (clock_.now() < until) {
-        if (auto well = output_.heartbeat(); !well) return tl::unexpected(well.error());
-        if (auto heard = input_.take(); !heard) return tl::unexpected(heard.error());
+        if (auto heard = listened(); !heard) return tl::unexpected(std::move(heard.error()));
         clock_.wait(kLook);
     }
     // What is heard from now on was put out after the change.
@@ -97,9 +102,8 @@ Result<LensBench::Fold> LensBench::folded(int sweeps) {
     const auto wanted = static_cast<std::size_t>(sweeps) * bins / step;
     auto last = clock_.now();
     while (left_.trigger.size() < wanted) {
-        auto heard = input_.take();
+        auto heard = listened();
         if (!heard) return tl::unexpected(std::move(heard.error()));
-        if (auto well = output_.heartbeat(); !well) return tl::unexpected(well.error());
         if (!heard->trigger.empty()) last = clock_.now();
         if (clock_.now() - last > kSilence)
             return fail(Fault::device, "The DAC box has stopped listening. Connect it again.");

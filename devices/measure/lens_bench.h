@@ -1,6 +1,7 @@
 // One lens before a photodiode: currents in, volts out, at rest and over a sweep's period.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/base/result.h"
@@ -17,6 +18,7 @@ struct LensBenchSetup {
     Eye eye = Eye::left;                    ///< whose lens is before the photodiode; the other one rests
     int periods = 24;                       ///< averaged
     Second patience = Second::fromSi(3.0);  ///< for a lens to come to rest, or to repeat
+    std::function<bool()> stop;             ///< true: end with an error, the lenses at rest
 };
 
 /// The photodiode while the lens's current stands still.
@@ -62,6 +64,7 @@ private:
         int sweeps = 0;
         double sampleNoise() const;
     };
+    Result<HeardBlock> listened();
     Result<void> played(const Harmonics& drive_A, Hertz rate);
     Result<Fold> folded(int sweeps);
     Result<Fold> settled(int sweeps);
