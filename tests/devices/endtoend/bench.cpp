@@ -1,5 +1,7 @@
 #include "tests/devices/endtoend/bench.h"
 
+#include <algorithm>
+
 #include "tests/devices/programs.h"
 
 namespace ilf::devices::test {
@@ -13,12 +15,16 @@ Bench::Bench(std::int64_t start_ns, Locked lockedBy)
 }
 
 void Bench::advance(std::int64_t by_ns) {
+    constexpr std::int64_t kStep_ns = 2'000'000;
     const std::int64_t until_ns = now_ns_ + by_ns;
-    for (; nextSync_ns_ <= until_ns; nextSync_ns_ += kFrame_ns) {
-        now_ns_ = nextSync_ns_;
-        locked([&] { board.verticalSync(frame_, now_ns_); });
+    while (now_ns_ < until_ns) {
+        now_ns_ = std::min({until_ns, nextSync_ns_, meanwhile ? now_ns_ + kStep_ns : until_ns});
+        if (now_ns_ == nextSync_ns_) {
+            locked([&] { board.verticalSync(frame_, now_ns_); });
+            nextSync_ns_ += kFrame_ns;
+        }
+        if (meanwhile) meanwhile();
     }
-    now_ns_ = until_ns;
 }
 
 Clock Bench::clock() {

@@ -25,6 +25,8 @@ public:
     explicit Bench(std::int64_t start_ns = 0, Locked locked = {});
 
     emulators::EmulatedLightCrafter board;
+    /// What else goes on while time passes, called each 2 ms.
+    std::function<void()> meanwhile;
     Locked locked;
 
     std::int64_t now_ns() const { return now_ns_; }
