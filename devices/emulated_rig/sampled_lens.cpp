@@ -8,7 +8,7 @@ namespace ilf::devices {
 namespace {
 
 constexpr double kRoom_C = 30.0;  // where the presets' table is at home
-constexpr std::int64_t kRemembered_ns = 500'000'000;
+constexpr std::int64_t kRemembered_ns = 500'000'000, kNotedEvery_ns = 500'000;
 
 }  // namespace
 
@@ -28,9 +28,13 @@ void SampledLens::drive(std::int64_t time_ns, Ampere current) {
 
 void SampledLens::advance(std::int64_t time_ns) {
     if (time_ns <= now_ns_) return;
-    lens_.advance(Second::fromSi(1e-9 * static_cast<double>(time_ns - now_ns_)));
-    now_ns_ = time_ns;
-    note();
+    // Noted at least every half millisecond, as far back as anything is remembered.
+    for (std::int64_t next_ns = std::max(now_ns_, time_ns - kRemembered_ns); now_ns_ < time_ns;) {
+        if (next_ns == now_ns_) next_ns = std::min(now_ns_ + kNotedEvery_ns, time_ns);
+        lens_.advance(Second::fromSi(1e-9 * static_cast<double>(next_ns - now_ns_)));
+        now_ns_ = next_ns;
+        note();
+    }
 }
 
 void SampledLens::warmer(double by_C) {

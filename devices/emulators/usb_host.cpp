@@ -174,10 +174,11 @@ Result<void> UsbHost::Impl::plug(const std::string& path, EmulatedUsbDevice& dev
                          auto& served = *static_cast<UsbPort*>(data);
                          bool known = true;
                          std::optional<Outcome> outcome;
+                         auto fetched = UsbPort::fetched(client);
                          {
                              const std::scoped_lock lock(*served.lock);
                              served.catchUp();
-                             outcome = served.answer(client, known);
+                             outcome = served.answer(client, std::move(fetched), known);
                          }
                          if (!known) return FALSE;
                          if (outcome) umockdev_ioctl_client_complete(client, outcome->first, outcome->second);

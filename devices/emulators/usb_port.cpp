@@ -14,8 +14,32 @@ void UsbPort::forgetClosed() {
                   [](const auto& entry) { return umockdev_ioctl_client_get_connected(entry.first.get()) == FALSE; });
 }
 
+UsbPort::Fetched UsbPort::fetched(UMockdevIoctlClient* client) {
+    constexpr int kLongest = 1 << 20;
+    UMockdevIoctlData* arg = umockdev_ioctl_client_get_arg(client);
+    Fetched made;
+    switch (umockdev_ioctl_client_get_request(client)) {
+    case USBDEVFS_SUBMITURB: {
+        made.data = resolved(arg, 0, sizeof(usbdevfs_urb));
+        const int length = made.data ? as<usbdevfs_urb>(made.data).buffer_length : -1;
+        if (length > 0 && length <= kLongest)
+            made.buffer = resolved(made.data.get(), offsetof(usbdevfs_urb, buffer), std::size_t(length));
+        made.whole = length == 0 || made.buffer;
+        break;
+    }
+    case USBDEVFS_REAPURB:
+    case USBDEVFS_REAPURBNDELAY:
+        made.data = resolved(arg, 0, sizeof(void*));
+        made.whole = made.data != nullptr;
+        break;
+    default:
+        break;
+    }
+    return made;
+}
+
 // Ioctls of usbdevfs; linux/usbdevice_fs.h and the kernel's documentation of it.
-std::optional<Outcome> UsbPort::answer(UMockdevIoctlClient* client, bool& known) {
+std::optional<Outcome> UsbPort::answer(UMockdevIoctlClient* client, Fetched fetched, bool& known) {
     UMockdevIoctlData* arg = umockdev_ioctl_client_get_arg(client);
     const unsigned long request = umockdev_ioctl_client_get_request(client);
     if (gone) return Outcome{-1, ENODEV};
@@ -56,11 +80,13 @@ std::optional<Outcome> UsbPort::answer(UMockdevIoctlClient* client, bool& known)
         return Outcome{0, 0};
     }
     case USBDEVFS_SUBMITURB:
-        return submit(program, arg);
+        return submit(program, std::move(fetched));
     case USBDEVFS_REAPURB:
     case USBDEVFS_REAPURBNDELAY: {
-        const Outcome reaped = reap(program, arg);
+        if (!fetched.whole) return Outcome{-1, EFAULT};
+        const Outcome reaped = reap(program, fetched.data);
         if (reaped.second != EAGAIN || patience.count() == 0) return reaped;
+        program.askedFor = std::move(fetched.data);
         program.asksUntil = std::chrono::steady_clock::now() + patience;
         onWaiting();
         return std::nullopt;
@@ -91,14 +117,13 @@ Outcome UsbPort::claim(Client& client) {
     return {0, 0};
 }
 
-Outcome UsbPort::submit(Client& client, UMockdevIoctlData* arg) {
-    constexpr int kLongest = 1 << 20;
+Outcome UsbPort::submit(Client& client, Fetched fetched) {
+    if (!fetched.whole) return {-1, fetched.data ? EINVAL : EFAULT};
     Urb urb;
-    urb.data = resolved(arg, 0, sizeof(usbdevfs_urb));
-    if (!urb.data) return {-1, EFAULT};
+    urb.data = std::move(fetched.data);
+    urb.buffer = std::move(fetched.buffer);
     const int length = urb.fields().buffer_length;
-    if (length < 0 || length > kLongest || urb.fields().type == USBDEVFS_URB_TYPE_ISO) return {-1, EINVAL};
-    if (length > 0) urb.buffer = resolved(urb.data.get(), offsetof(usbdevfs_urb, buffer), std::size_t(length));
+    if (urb.fields().type == USBDEVFS_URB_TYPE_ISO) return {-1, EINVAL};
     if (urb.isControl() && length < 8) return {-1, EINVAL};
     if (!urb.isControl() && !client.claimed) return {-1, EINVAL};
     client.urbs.push_back(std::move(urb));
@@ -153,12 +178,11 @@ void UsbPort::progress(Urb& urb, std::int64_t now) {
     }
 }
 
-Outcome UsbPort::reap(Client& client, UMockdevIoctlData* arg) {
+Outcome UsbPort::reap(Client& client, const IoctlData& pointer) {
     progress(client, now_ns());
     if (gone) return {-1, ENODEV};
     const auto done = std::ranges::find_if(client.urbs, &Urb::done);
     if (done == client.urbs.end()) return {-1, EAGAIN};
-    const IoctlData pointer = resolved(arg, 0, sizeof(void*));
     umockdev_ioctl_data_set_ptr(pointer.get(), 0, done->data.get());
     client.urbs.erase(done);
     return {0, 0};
@@ -173,9 +197,10 @@ void UsbPort::goOn(std::int64_t now) {
     for (auto& [program, client] : clients) {
         progress(client, now);
         if (!client.asksUntil) continue;
-        const Outcome reaped = reap(client, umockdev_ioctl_client_get_arg(program.get()));
+        const Outcome reaped = reap(client, client.askedFor);
         if (reaped.second == EAGAIN && std::chrono::steady_clock::now() < *client.asksUntil) continue;
         client.asksUntil.reset();
+        client.askedFor.reset();
         umockdev_ioctl_client_complete(program.get(), reaped.first, reaped.second);
     }
 }

@@ -68,6 +68,7 @@ struct Client {
     bool claimed = false;
     /// It asked for a transfer that is done when none was: it is answered by then, or once one is.
     std::optional<std::chrono::steady_clock::time_point> asksUntil;
+    IoctlData askedFor;  ///< where it then wants it
 };
 
 /// A device at a place. It stays until the last program has let go of it, long after the cable is out.
@@ -90,11 +91,18 @@ struct UsbPort {
     std::chrono::steady_clock::time_point pulledAt;
 
     void forgetClosed();
+    /// What has to be read from the program's memory; to be done while nothing is locked, since the program may take
+    /// its time.
+    struct Fetched {
+        IoctlData data, buffer;
+        bool whole = true;  ///< all that was needed could be read
+    };
+    static Fetched fetched(UMockdevIoctlClient* client);
     /// None: it is answered later, by `goOn`.
-    std::optional<Outcome> answer(UMockdevIoctlClient* client, bool& known);
+    std::optional<Outcome> answer(UMockdevIoctlClient* client, Fetched fetched, bool& known);
     Outcome claim(Client& client);
-    Outcome submit(Client& client, UMockdevIoctlData* arg);
-    Outcome reap(Client& client, UMockdevIoctlData* arg);
+    Outcome submit(Client& client, Fetched fetched);
+    Outcome reap(Client& client, const IoctlData& pointer);
     /// What a host controller does by itself: transfers go on, and whoever waits for one is answered.
     void goOn(std::int64_t now);
     /// Somebody has handed something in, or asked.

@@ -23,24 +23,21 @@ RunningRig::RunningRig(LensPreset lens) : stop_(eventfd(0, EFD_CLOEXEC)) {
     directory_ = std::filesystem::temp_directory_path() /
                  ("ilf-rig-" + std::to_string(getpid()) + "-" + std::to_string(++count));
     REQUIRE(prepareRuntimeDirectory(directory_));
-    std::atomic<bool> ended = false;
-    Result<void> served;
-    std::thread server([&, lens] {
-        served = serveEmulatedRig(directory_, lens, stop_, [](const std::string&) {});
-        ended = true;
+    server_ = std::thread([this, lens] {
+        served_ = serveEmulatedRig(directory_, lens, stop_, [](const std::string&) {});
+        ended_ = true;
     });
     // Until it is ready or has refused; both are the rig's to say.
     Result<RigEnvironment> environment = rigEnvironment(directory_);
-    while (!environment && !ended) {
+    while (!environment && !ended_) {
         std::this_thread::sleep_for(10ms);
         environment = rigEnvironment(directory_);
     }
     if (!environment) {
-        server.join();
-        refused_ = served ? "it ended at once" : served.error().what;
+        server_.join();
+        refused_ = served_ ? "it ended at once" : served_.error().what;
         return;
     }
-    server_ = std::move(server);
     for (const auto& [name, value] : *environment)
         if (name != "LD_PRELOAD") setenv(name.c_str(), value.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
     client_ = std::make_unique<DeviceClient>(directory_, 2000ms);

@@ -1,6 +1,7 @@
 // An emulated rig in this process, in real time, and the stage that plays on it as on a real one.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -40,6 +41,8 @@ private:
     int stop_ = -1;
     std::optional<std::string> refused_;
     std::unique_ptr<DeviceClient> client_;
+    std::atomic<bool> ended_ = false;
+    Result<void> served_;
     std::thread server_;
     std::unique_ptr<UsbBus> bus_;
 };
