@@ -27,10 +27,11 @@ bool lightsThroughDisplay(const PlayedRig& played) {
 
 Result<void> seesEmulatedRig(const std::filesystem::path& runtimeDirectory) {
     const auto wanted = devices::rigEnvironment(runtimeDirectory);
-    if (!wanted)
+    // One that was killed leaves its words behind.
+    if (!wanted || !devices::FileLock::holder(devices::devicesLock(runtimeDirectory)))
         return fail(Fault::notFound,
-                    "The emulated rig is not ready: it needs Xvfb and libumockdev-preload.so.0 (packages xvfb and "
-                    "umockdev); what it misses stands in " +
+                    "The emulated rig is not there: it is being started, or lacks Xvfb or libumockdev-preload.so.0 "
+                    "(packages xvfb and umockdev); what it says stands in " +
                         (devices::stateDirectory() / "emulated-rig.log").string() + ".");
     for (const auto& [name, value] : *wanted) {
         const char* own = std::getenv(name.c_str());  // NOLINT(concurrency-mt-unsafe): nothing here sets variables

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <memory>
 
 #include "app/output_core/events.h"
@@ -23,8 +24,23 @@ namespace {
 // No start, stop or search of a stage lasts this long: its thread hangs in a driver, and nobody watches over the light.
 constexpr std::chrono::seconds kHangs{30};
 
+/// Set for the way out that is meant.
+bool g_ends = false;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables): atexit takes no argument
+
+/// Libraries end a process that lost its display or its bus, from whatever thread is in them; the link's own clearing
+/// up would then wait for threads that never end. The next player must be able to start at once.
+void endAtOnce() {
+    if (!g_ends) _exit(1);
+}
+
 bool isSafe(const devices::Status& status) {
     return status.light == devices::LightMode::steady && status.lens == devices::LensMode::rest && status.lensWell;
+}
+
+void endIfHanging(const Player& player) {
+    if (player.busyFor() < kHangs) return;
+    note(event::kPlayerHangs);
+    _exit(1);
 }
 
 }  // namespace
@@ -44,6 +60,7 @@ int runPlayer(const CoreSetup& setup, const std::string& afterFault) {
         note(event::kNoSocket, server.error().what);
         return 3;
     }
+    std::atexit(endAtOnce);  // after the link's context, so that it is asked before that
     // Simulated devices have a process and a clock of their own.
     const bool ownDevices = setup.played.machine != Machine::simulated;
     const std::vector<std::string> limits = ownDevices ? keepTime() : std::vector<std::string>();
@@ -61,10 +78,7 @@ int runPlayer(const CoreSetup& setup, const std::string& afterFault) {
             link.turn(wake, signals.descriptor());
             eventfd_t count = 0;
             eventfd_read(wake, &count);
-            if (player.busyFor() > kHangs) {
-                note(event::kPlayerHangs);
-                _exit(1);
-            }
+            endIfHanging(player);
         }
         // Others go on hearing how it is while a stage takes its time to become safe.
         player.end();
@@ -72,11 +86,13 @@ int runPlayer(const CoreSetup& setup, const std::string& afterFault) {
             link.turn(wake, wake);
             eventfd_t count = 0;
             eventfd_read(wake, &count);
+            endIfHanging(player);
         }
         link.turn(wake, wake);
         safe = isSafe(link.status());
     }
     close(wake);
+    g_ends = true;
     if (ownDevices && safe) unmarkStage(setup.runtimeDirectory);
     note(safe ? event::kPlayerStopped : event::kNotSafe);
     return 0;

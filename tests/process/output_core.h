@@ -13,6 +13,7 @@
 #include <string>
 #include <thread>
 
+#include "app/output_core/stage_mark.h"
 #include "devices/link/core_link.h"
 #include "devices/link/start_core.h"
 #include "devices/simulated/device_client.h"
@@ -33,13 +34,14 @@ inline int kills() {
 /// On the ideal lens, which plays the powers of programs made by hand, unless told another.
 class OutputCore {
 public:
-    explicit OutputCore(std::string lens = "ideal") : directory_(temporary()), lens_(std::move(lens)) {
+    explicit OutputCore(std::string lens = "ideal", std::string rig = "simulated")
+        : directory_(temporary()), lens_(std::move(lens)), rig_(std::move(rig)) {
         setenv("XDG_STATE_HOME", (directory_ / "state").c_str(), 1);
         start();
     }
     ~OutputCore() {
-        for (const auto& lock :
-             {devices::supervisorLock(directory_), devices::playerLock(directory_), devices::devicesLock(directory_)})
+        for (const auto& lock : {devices::supervisorLock(directory_), devices::playerLock(directory_),
+                                 app::guardLock(directory_), devices::devicesLock(directory_)})
             if (const auto pid = devices::FileLock::holder(lock); pid && *pid > 0) kill(*pid, SIGKILL);
         std::error_code ignored;
         std::filesystem::remove_all(directory_, ignored);
@@ -48,12 +50,14 @@ public:
     OutputCore& operator=(const OutputCore&) = delete;
 
     void start() {
-        const auto running = devices::ensureCoreRunning(ILF_CORE_PATH, directory_, {"--simulated-lens", lens_});
+        const auto running =
+            devices::ensureCoreRunning(ILF_CORE_PATH, directory_, {"--simulated-lens", lens_, "--rig", rig_});
         REQUIRE_MESSAGE(running.has_value(), (running ? "" : running.error().what));
     }
     const std::filesystem::path& directory() const { return directory_; }
     int supervisor() const { return devices::FileLock::holder(devices::supervisorLock(directory_)).value_or(0); }
     int player() const { return devices::FileLock::holder(devices::playerLock(directory_)).value_or(0); }
+    int guard() const { return devices::FileLock::holder(app::guardLock(directory_)).value_or(0); }
     int devicesPid() const { return devices::FileLock::holder(devices::devicesLock(directory_)).value_or(0); }
 
     devices::CoreLink connected() const {
@@ -103,7 +107,7 @@ private:
         return name;
     }
     std::filesystem::path directory_;
-    std::string lens_;
+    std::string lens_, rig_;
 };
 
 inline bool safe(const devices::DeviceState& s) {
