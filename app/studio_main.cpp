@@ -225,7 +225,8 @@ void addDoctor(CLI::App& app, DoctorOptions& options) {
 }
 
 void addMeasure(CLI::App& app, MeasureDelayOptions& delay, MeasureRigOptions& rig) {
-    auto* measure = app.add_subcommand("measure", "What a photodiode tells: a projector's delay, a lens's powers and waves");
+    auto* measure =
+        app.add_subcommand("measure", "What a photodiode tells: a projector's delay, a lens's powers and waves");
     measure->require_subcommand(1);
     auto* delays = measure->add_subcommand("delay", "Of light after its trigger, from a recording of both");
     delays->add_option("RECORDING", delay.recording, ".csv (seconds, trigger, light), .wav or .flac")->required();
@@ -244,6 +245,8 @@ void addMeasure(CLI::App& app, MeasureDelayOptions& delay, MeasureRigOptions& ri
     rigs->add_option("--temperature", rig.temperature_C, "Of the lens, in degrees C")->check(CLI::Range(-20.0, 80.0));
     rigs->add_option("--rate", rig.rate_Hz, "Sweeps a second")->check(CLI::Range(10.0, 1000.0))->capture_default_str();
     rigs->add_option("--waves", rig.waves, "How many, for a model")->check(CLI::Range(9, 10000))->capture_default_str();
+    rigs->add_option("--shape", rig.shape_D, "Learn a wave that holds these levels (dioptres) as well, such as 0,2.2")
+        ->delimiter(',');
     rigs->add_option("--model", rig.model, "Of the lens");
     rigs->add_option("--serial", rig.serial, "Of the lens");
     rigs->add_flag("--no-projector", rig.withoutProjector, "Leave the projector's delay as it is");

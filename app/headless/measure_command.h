@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/rigs.h"
 
@@ -25,6 +26,7 @@ struct MeasureRigOptions {
     std::optional<double> temperature_C;  ///< of the lens
     double rate_Hz = 60.0;
     std::size_t waves = 40;
+    std::vector<double> shape_D;  ///< levels of a wave to be learnt as well; empty: none
     bool withoutProjector = false;
     bool yes = false;            ///< everything is connected: no questions
     bool replace = false;        ///< files that are there may be overwritten

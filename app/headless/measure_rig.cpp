@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <chrono>
@@ -14,10 +15,16 @@
 #include "app/exit_code.h"
 #include "app/headless/measure_command.h"
 #include "app/headless/prepare.h"
+#include "app/lens/lens_planner.h"
 #include "app/output_core/usb_place.h"
+#include "core/lens/shaped_wave.h"
+#include "devices/dlpc350/lightcrafter.h"
 #include "devices/emulated_bench/emulated_bench.h"
+#include "devices/measure/projector_flashes.h"
 #include "devices/measure/rig_measurement.h"
+#include "devices/rig/pattern_frames.h"
 #include "devices/usb1208/messages.h"
+#include "devices/video/display_output.h"
 #include "ilf/version.h"
 #include "projects/wave_database.h"
 #include "projects/wearer_rig.h"
@@ -91,6 +98,7 @@ struct Place {
     std::unique_ptr<devices::EmulatedBench> emulated;
     UsbPlaces usb;
     std::shared_ptr<devices::UsbLink> link;
+    std::unique_ptr<devices::ProjectorFlashes> flashes;  ///< of a real projector
     devices::Clock clock = devices::Clock::steady();
 
     void connected(MeasureStep step, Eye eye) const {
@@ -109,6 +117,28 @@ struct Place {
             };
     }
 };
+
+Result<std::unique_ptr<devices::ProjectorFlashes>> flashesOf(const Rig& rig, UsbPlaces& usb) {
+    using Board = devices::dlpc350::LightCrafter;
+    if (rig.kind != ProjectorKind::lightCrafter4500)
+        return fail(Fault::unsupported,
+                    "Only a LightCrafter 4500 can be made to flash by this version; leave its delay as "
+                    "it is (--no-projector).");
+    auto video = devices::displayOutput({rig.devices->display, rig.projector});
+    if (!video) return tl::unexpected(std::move(video.error()));
+    devices::LightCrafterRig parts;
+    parts.openProjector = [&usb, at = rig.devices->projectorAt]() -> Result<std::unique_ptr<devices::StageProjector>> {
+        auto link = usb.link({{Board::kVendor, Board::kProduct}, "LightCrafter 4500"}, at, Board::kInterface);
+        if (!link) return tl::unexpected(std::move(link.error()));
+        auto board = Board::open(*std::move(link), devices::Clock::steady());
+        if (!board) return tl::unexpected(std::move(board.error()));
+        return std::make_unique<devices::LightCrafterProjector>(*std::move(board));
+    };
+    parts.video = *std::move(video);
+    parts.packed = devices::patternFrames(rig.bits);
+    return std::make_unique<devices::ProjectorFlashes>(std::move(parts),
+                                                       devices::FlashSetup{rig.projector, rig.sweepRate, rig.slotRate});
+}
 
 /// As a lensmeter would tell them: hundredths of a dioptre.
 std::vector<StaticPower> emulatedLensmeter(const devices::EmulatedBench& bench, Eye eye) {
@@ -186,6 +216,23 @@ projects::WaveFile waveFile(const devices::MeasuredRig& measured, const Rig& rig
     return file;
 }
 
+/// A wave that holds the measured lens at its levels.
+Result<void> learntToo(devices::RigMeasurement& measurement, projects::WaveFile& waves,
+                       const MeasureRigOptions& options) {
+    const Hertz rate = Hertz::fromSi(options.rate_Hz);
+    std::vector<double> levels = options.shape_D;
+    std::sort(levels.begin(), levels.end());
+    const auto holds = holdsFor(levels, usualDuty(levels.size(), rate), 0.5 / 16.0);
+    return measurement.withRecorder([&](const RecordLens& record, const DriveLimits& limits) -> Result<void> {
+        auto wave = learnt(record, rate, holds, kUsualHarmonics, limits);
+        if (!wave) return tl::unexpected(std::move(wave.error()));
+        std::cout << "Learnt: a wave that holds " << levels.size() << " levels within " << wave->largestError_D
+                  << " D\n";
+        waves.shaped.push_back(*std::move(wave));
+        return {};
+    });
+}
+
 Rig withMeasured(Rig rig, const devices::MeasuredRig& measured, const MeasureRigOptions& options, bool emulated) {
     auto& devices = rig.devices.emplace(rig.devices.value_or(RigDevices{}));
     (options.eye == "left" ? devices.left : devices.right).powers = measured.sweep->powers;
@@ -238,6 +285,12 @@ Result<void> measured(const MeasureRigOptions& options) {
                                    rig->devices->lensesAt, 0);
         if (!link) return tl::unexpected(link.error());
         place.link = *std::move(link);
+        if (!options.withoutProjector) {
+            auto flashes = flashesOf(*rig, place.usb);
+            if (!flashes) return tl::unexpected(std::move(flashes.error()));
+            place.flashes = *std::move(flashes);
+            setup.flashes = [&place](bool on) { return place.flashes->flash(on); };
+        }
     }
     if (!options.known.empty()) {
         auto known = knownPowers(options.known);
@@ -251,7 +304,10 @@ Result<void> measured(const MeasureRigOptions& options) {
     const StopsOnSignal stops;
     devices::RigMeasurement measurement(place.link, setup, place.clock);
     if (auto walk = walked(measurement, place, eye, options); !walk) return walk;
-    const projects::WaveFile waves = waveFile(measurement.measured(), *rig, options, emulated);
+    projects::WaveFile waves = waveFile(measurement.measured(), *rig, options, emulated);
+    if (!options.shape_D.empty()) {
+        if (auto learning = learntToo(measurement, waves, options); !learning) return learning;
+    }
     if (auto saved = projects::saveWaves(options.lens, waves); !saved) return saved;
     std::cout << options.lens << ": " << waves.records.size() << " waves, "
               << (emulated ? "simulated on an emulated bench, not measured" : "measured") << '\n';
