@@ -128,8 +128,7 @@ std::vector<DeviceLine> LightCrafterStage::deviceLines() const {
                                    "not made up for.";
     }
     return {line("projector", projectorKnown_, "LightCrafter 4500", projector),
-            line("display", displayKnown_, connector.empty() ? "the projector's display" : "display " + connector,
-                 display + "."),
+            line("display", displayKnown_, connector.empty() ? "the projector's display" : connector, display + "."),
             line("lenses", lensesKnown_, "USB-1208FS-Plus", lenses)};
 }
 

@@ -11,7 +11,7 @@ Result<void> LightCrafterProjector::showVideo(Waiting waiting) {
     // After a message that failed, the next one may only drain what it left behind.
     auto told = board_->showVideo(dlpc350::kBrief);
     if (!told) told = board_->showVideo(dlpc350::kBrief);
-    if (!told) told = board_->showVideo();
+    if (!told) told = board_->showVideo({Milliseconds(500), 20});
     return told;
 }
 

@@ -7,8 +7,8 @@
 
 namespace ilf::devices {
 
-/// `brief`: one attempt, which a silent device cannot make last longer than about 0.2 s. `patient`: several, some
-/// seconds.
+/// `brief`: one attempt, which a silent device cannot make last longer than about 0.2 s. `patient`: three,
+/// about a second.
 enum class Waiting { brief, patient };
 
 /// Calls come from one thread. An error of `start` may leave the board dark, with its patterns stopped: `showVideo`

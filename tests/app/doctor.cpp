@@ -1,6 +1,7 @@
 // `doctor` and `--list-devices` as programs: what an operator reads with nothing, good devices and bad ones attached.
 // The emulated bus needs libumockdev-preload.so.0 in LD_PRELOAD, as ctest sets it.
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <filesystem>
@@ -201,6 +202,48 @@ TEST_CASE("doctor: busy and silent devices are told apart, and one pulled out in
     CHECK(contains(gone["devices"][0]["troubles"][0], "unplugged while it was looked at"));
 }
 
+TEST_CASE("doctor: a device this user may not open is told with the rules to install, and no account needs a name") {
+    if (bus() == nullptr) return;
+    namespace fs = std::filesystem;
+    const Machine machine;
+    EmulatedLightCrafter projector;
+    const Plugged plugged("1-2", projector);
+    // The node as the system's files name it, which nobody may open.
+    const fs::path root = machine.root.path(), usb = root / "sys/bus/usb/devices/1-2";
+    fs::create_directories(usb);
+    fs::create_directories(root / "dev/bus/usb/001");
+    std::ofstream(usb / "busnum") << "1\n";
+    std::ofstream(usb / "devnum") << "7\n";
+    std::ofstream(root / "dev/bus/usb/001/007") << "";
+    fs::permissions(root / "dev/bus/usb/001/007", fs::perms::none);
+    std::string other;
+    if (geteuid() == 0) {
+        // Root may open everything, so somebody else looks: a number without a name, as in containers.
+        other = " setpriv --reuid=54321 --regid=54321 --clear-groups";
+        fs::permissions(root, fs::perms(0755));
+        fs::permissions(machine.runtime.path(), fs::perms(0755));
+        // The bus has its listeners put sockets there.
+        fs::permissions(bus()->directory(), fs::perms(0777));
+        for (const auto& entry : fs::recursive_directory_iterator(bus()->directory()))
+            if (entry.is_directory() && !entry.is_symlink()) fs::permissions(entry.path(), fs::perms(0777));
+    }
+    const auto asked = [&](const std::string& options) {
+        return runProgram(ILF_STUDIO_PATH, "doctor --root " + root.string() + " " + options + " 2>&1",
+                          "ILF_RUNTIME_DIR=" + machine.runtime.path() + other);
+    };
+    const Ran ran = asked("");
+    CHECK(ran.code == 3);
+    CHECK_MESSAGE(contains(ran.out, "NO PERMISSION LightCrafter 4500"), ran.out);
+    CHECK(contains(ran.out, "You may not open " + root.string() + "/dev/bus/usb/001/007."));
+    CHECK_FALSE(contains(ran.out, "$USER"));
+    const json report = json::parse(asked("--json").out);
+    CHECK(report["devices"][0]["state"] == "no-permission");
+    CHECK(report["devices"][0]["usable"] == false);
+    CHECK(
+        contains(report["devices"][0]["troubles"][0], "doctor --install-rules, then unplug it and plug it in again."));
+    CHECK(projector.messages() == 0);
+}
+
 TEST_CASE("doctor: while an output core runs, devices are asked only with --ask") {
     if (bus() == nullptr) return;
     const Machine machine;
@@ -261,11 +304,18 @@ TEST_CASE("doctor: the USB rules are installed whole, found again, and refused i
     CHECK(contains(machine.inRoot("--install-rules").out, "already those of this version"));
     CHECK(checkNamed(json::parse(machine.inRoot("--json").out), "udev-rules")["standing"] == "good");
 
-    std::ofstream(machine.root / "etc/udev/rules.d/70-illuminatedfocus.rules") << "# older\n";
+    std::string firstLine;
+    std::getline(std::ifstream(machine.root / "etc/udev/rules.d/70-illuminatedfocus.rules"), firstLine);
+    std::ofstream(machine.root / "etc/udev/rules.d/70-illuminatedfocus.rules") << firstLine << "\n# older\n";
     CHECK(contains(checkNamed(json::parse(machine.inRoot("--json").out), "udev-rules")["what"],
                    "are those of another version"));
     CHECK(machine.inRoot("--install-rules").code == 0);
     CHECK(checkNamed(json::parse(machine.inRoot("--json").out), "udev-rules")["standing"] == "good");
+
+    std::ofstream(machine.root / "etc/udev/rules.d/70-illuminatedfocus.rules") << "# an administrator's\n";
+    const Ran theirs = machine.inRoot("--install-rules");
+    CHECK(theirs.code == 1);
+    CHECK(contains(theirs.out, "was written by somebody else"));
 
     std::ofstream(machine.root / "file") << "in the way";
     const Ran refused = machine.ran("doctor --install-rules --root " + machine.root.path() + "/file");
