@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -259,6 +260,9 @@ Result<void> measured(const MeasureRigOptions& options) {
         return fail(Fault::outOfRange, "Nobody is there to be asked: measure on a terminal, or say --yes.");
     Place place;
     devices::RigMeasurementSetup setup;
+    // What hangs on an emulated bus is no lens either.
+    const bool simulated = emulated || std::getenv("UMOCKDEV_DIR") != nullptr;
+    if (simulated) setup.provenance = Provenance::simulated;
     setup.devices = *rig->devices;
     setup.eye = eye;
     setup.rate = Hertz::fromSi(options.rate_Hz);
@@ -270,7 +274,6 @@ Result<void> measured(const MeasureRigOptions& options) {
         place.emulated = std::make_unique<devices::EmulatedBench>();
         place.link = place.emulated->link();
         place.clock = place.emulated->clock();
-        setup.provenance = Provenance::simulated;
         setup.known = emulatedLensmeter(*place.emulated, eye);
         setup.temperature_C = [&place, eye] {
             return place.emulated->lenses[eye == Eye::left ? 0 : 1].temperature_C();
@@ -304,16 +307,16 @@ Result<void> measured(const MeasureRigOptions& options) {
     const StopsOnSignal stops;
     devices::RigMeasurement measurement(place.link, setup, place.clock);
     if (auto walk = walked(measurement, place, eye, options); !walk) return walk;
-    projects::WaveFile waves = waveFile(measurement.measured(), *rig, options, emulated);
+    projects::WaveFile waves = waveFile(measurement.measured(), *rig, options, simulated);
     if (!options.shape_D.empty()) {
         if (auto learning = learntToo(measurement, waves, options); !learning) return learning;
     }
     if (auto saved = projects::saveWaves(options.lens, waves); !saved) return saved;
     std::cout << options.lens << ": " << waves.records.size() << " waves, "
-              << (emulated ? "simulated on an emulated bench, not measured" : "measured") << '\n';
+              << (simulated ? "simulated on an emulated bench, not measured" : "measured") << '\n';
     if (options.savedRig.empty()) return {};
     if (auto saved =
-            projects::writeRig(options.savedRig, withMeasured(*rig, measurement.measured(), options, emulated));
+            projects::writeRig(options.savedRig, withMeasured(*rig, measurement.measured(), options, simulated));
         !saved)
         return saved;
     std::cout << options.savedRig << ": the rig with its static powers"
