@@ -4,7 +4,7 @@
 #include "core/base/geometry.h"
 #include "devices/video/x_connection.h"
 
-union _XEvent;
+union _XEvent;  // NOLINT(bugprone-reserved-identifier): Xlib's
 
 namespace ilf::devices {
 

@@ -72,7 +72,7 @@ Choice chosenConfig(Display* display) {
             choice = {config, info->visual, info->depth};
         if (info != nullptr) XFree(info);
     }
-    if (configs != nullptr) XFree(configs);
+    if (configs != nullptr) XFree(static_cast<void*>(configs));
     return choice;
 }
 

@@ -3,6 +3,7 @@
 #include <X11/Xlib.h>
 #include <X11/extensions/Xrandr.h>
 #include <cerrno>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <poll.h>
@@ -13,7 +14,7 @@
 namespace ilf::devices {
 namespace {
 
-constexpr int kTryEvery_ms = 1000;
+constexpr std::chrono::milliseconds kTryEvery{1000};
 
 class Guard {
 public:
@@ -97,7 +98,7 @@ Result<void> keepWhite(const DisplayWish& wish, int stopDescriptor,
     while (true) {
         const int server = guard.descriptor();
         pollfd waited[] = {{stopDescriptor, POLLIN, 0}, {server, POLLIN, 0}};
-        const int ready = poll(waited, 2, server < 0 ? kTryEvery_ms : -1);
+        const int ready = poll(waited, 2, server < 0 ? static_cast<int>(kTryEvery.count()) : -1);
         if (ready < 0 && errno != EINTR)
             return fail(Fault::device, "The guard of the projector's display cannot wait.");
         if (ready < 0) continue;

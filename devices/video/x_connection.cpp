@@ -52,7 +52,7 @@ void stay(Display*, void*) {}
 
 }  // namespace
 
-XConnection::XConnection(_XDisplay* display) : display_(display) {
+XConnection::XConnection(XServerConnection* display) : display_(display) {
     Registry& all = registry();
     const std::scoped_lock lock(all.mutex);
     all.ours.emplace_back(display, this);

@@ -1,4 +1,4 @@
-// A connection to the X server that outlives neither its server nor a refusal by killing the process.
+// A connection to the X server whose loss, like a request that is refused, does not end the process.
 #pragma once
 
 #include <atomic>
@@ -6,9 +6,12 @@
 
 #include "core/base/result.h"
 
-struct _XDisplay;  // Xlib's Display; its headers define macros that other headers cannot live with
+// Xlib's Display. Its headers define macros that other headers cannot live with.
+struct _XDisplay;  // NOLINT(bugprone-reserved-identifier)
 
 namespace ilf::devices {
+
+using XServerConnection = _XDisplay;  // NOLINT(bugprone-reserved-identifier)
 
 /// Xlib ends the process when the server is gone or refuses a request; through this class both are states that can be
 /// asked for. After `lost` no more requests should be made: they do nothing, and fill a buffer that nobody empties.
@@ -20,7 +23,7 @@ public:
     XConnection(const XConnection&) = delete;
     XConnection& operator=(const XConnection&) = delete;
 
-    _XDisplay* get() const { return display_; }
+    XServerConnection* get() const { return display_; }
     unsigned long root() const;
     int descriptor() const;
     bool lost() const { return lost_; }
@@ -32,9 +35,9 @@ public:
     void gone() { lost_ = true; }
 
 private:
-    explicit XConnection(_XDisplay* display);
+    explicit XConnection(XServerConnection* display);
 
-    _XDisplay* display_;
+    XServerConnection* display_;
     std::atomic<bool> lost_{false}, refused_{false};
 };
 

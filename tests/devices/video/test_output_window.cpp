@@ -59,7 +59,7 @@ int windows() {
 
 #define NEEDS(server)                                                                                                  \
     if (!(server).runs()) {                                                                                            \
-        MESSAGE("SKIPPED: Xvfb is not installed or does not start here");                                              \
+        MESSAGE("SKIPPED: Xvfb is not installed, does not start here, or threads are being checked");                  \
         return;                                                                                                        \
     }
 

@@ -83,7 +83,8 @@ void tell(const std::string& connector, const std::vector<std::uint8_t>& edid) {
 
 #define NEEDS(card)                                                                                                    \
     if (!(card).runs()) {                                                                                              \
-        MESSAGE("SKIPPED: Xorg with its dummy driver, xrandr, and root are needed for two displays");                  \
+        MESSAGE("SKIPPED: Xorg with its dummy driver, xrandr, and root are needed for two displays, and no checker "   \
+                "of threads");                                                                                         \
         return;                                                                                                        \
     }
 
