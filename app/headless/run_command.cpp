@@ -224,10 +224,10 @@ int runCommand(const RunOptions& options) {
     Run run(options, *project, **core);
     const auto done =
         run.played().and_then([&] { return run.befall(*mishaps); }).and_then([&] { return run.pictures(); });
-    if (!run.report().is_null()) {
-        if (const auto written = writeReport(options.report, run.report()); !written)
-            return refused("run", written.error());
-    }
+    json report = run.report();
+    if (report.is_null()) report = {{"file", options.file}};  // a report of an earlier run must not pass for this one's
+    if (!done) report["failed"] = done.error().what;
+    if (const auto written = writeReport(options.report, report); !written) return refused("run", written.error());
     if (!done) return refused("run", done.error());
     if (!run.trouble().empty()) return refused("run", {Fault::device, run.trouble()});
     return kDone;
