@@ -66,7 +66,7 @@ int runPlayer(const CoreSetup& setup, const std::string& afterFault) {
     const std::vector<std::string> limits = ownDevices ? keepTime() : std::vector<std::string>();
     for (const auto& limit : limits)
         note(event::kNotAllowed, limit);
-    if (ownDevices) markStage(setup.runtimeDirectory);
+    if (ownDevices) markStage(setup.runtimeDirectory, markedRest(setup.runtimeDirectory));
     const int wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     bool safe = false;
     {

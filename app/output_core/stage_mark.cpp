@@ -1,6 +1,8 @@
 #include "app/output_core/stage_mark.h"
 
+#include <cmath>
 #include <fstream>
+#include <iomanip>
 
 namespace ilf::app {
 namespace {
@@ -9,7 +11,21 @@ std::filesystem::path file(const std::filesystem::path& directory) { return dire
 
 }  // namespace
 
-void markStage(const std::filesystem::path& runtimeDirectory) { std::ofstream(file(runtimeDirectory)).put('\n'); }
+void markStage(const std::filesystem::path& runtimeDirectory, Dioptre rest) {
+    // Whole or not at all: it is read after a kill.
+    auto beside = file(runtimeDirectory);
+    beside += ".new";
+    std::ofstream(beside) << std::setprecision(17) << rest.si() << '\n';
+    std::error_code ignored;
+    std::filesystem::rename(beside, file(runtimeDirectory), ignored);
+}
+
+Dioptre markedRest(const std::filesystem::path& runtimeDirectory) {
+    constexpr double kMost_D = 20.0;  // no prescription is beyond
+    double power_D = 0.0;
+    std::ifstream(file(runtimeDirectory)) >> power_D;
+    return Dioptre::fromSi(std::abs(power_D) <= kMost_D ? power_D : 0.0);
+}
 
 void unmarkStage(const std::filesystem::path& runtimeDirectory) {
     std::error_code ignored;

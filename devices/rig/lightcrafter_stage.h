@@ -31,6 +31,7 @@ struct LightCrafterRig {
     Clock clock = Clock::steady();
     std::string name = "LightCrafter 4500 and lenses";  ///< "emulated ..." where that is so
     bool emulated = false;                              ///< the cables lead to emulated devices
+    Dioptre rest{};                                     ///< of the lenses until a program says another one
 };
 
 /// The order of a start: white video; lenses to their sweep, until they are predicted to be settled; the board's
@@ -45,7 +46,7 @@ struct LightCrafterRig {
 /// and opened again, at most once a second, by `heartbeat` and `safeLight`, which then tell it.
 class LightCrafterStage : public Stage {
 public:
-    explicit LightCrafterStage(LightCrafterRig rig) : rig_(std::move(rig)) {}
+    explicit LightCrafterStage(LightCrafterRig rig) : rig_(std::move(rig)), rest_(rig_.rest) {}
     ~LightCrafterStage() override;
 
     Result<void> load(const Program& program) override;

@@ -4,6 +4,7 @@
 
 #include "app/output_core/played_rig.h"
 #include "app/output_core/rest_current.h"
+#include "app/output_core/stage_mark.h"
 #include "app/output_core/stage_of.h"
 #include "app/output_core/usb_place.h"
 #include "app/rigs.h"
@@ -101,6 +102,23 @@ TEST_CASE("rest current: on the straight line between two points, and nowhere be
     // 0.51 D at no current: the emulated lens needs some to rest at 0 D.
     const Ampere zero = restCurrent(emulatedRig().devices->left, 0.0_D, "left lens").value();
     CHECK(zero.si() == doctest::Approx(-0.00739).epsilon(0.01));
+}
+
+TEST_CASE("stage mark: keeps the power at which the lenses rest, until the stage is left alone") {
+    Folder folder;
+    CHECK_FALSE(stageIsMarked(folder.path()));
+    CHECK(markedRest(folder.path()) == 0.0_D);
+    for (const Dioptre rest : {0.0_D, Dioptre::fromSi(-1.0 / 3.0), 2.25_D}) {
+        markStage(folder.path(), rest);
+        CHECK(stageIsMarked(folder.path()));
+        CHECK(markedRest(folder.path()) == rest);
+    }
+    folder.put("stage-in-use", "1e9");
+    CHECK(markedRest(folder.path()) == 0.0_D);
+    folder.put("stage-in-use", "rubbish");
+    CHECK(markedRest(folder.path()) == 0.0_D);
+    unmarkStage(folder.path());
+    CHECK_FALSE(stageIsMarked(folder.path()));
 }
 
 TEST_CASE("usb places: the one meant, or a sentence that says what is wrong") {
