@@ -24,7 +24,8 @@ using namespace ilf::app;
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 failed, 2 usage, 3 device, 4 unsafe plan.\n"
-    "All output is simulated: this version's output core opens no driver of a lens or projector (see doctor).";
+    "Light and lens are simulated, or emulated (--rig emulated); hardware plays only with --rig FILE.\n"
+    "Its drivers were tested against emulators written from the public protocols, never on hardware (see doctor).";
 
 const std::vector<std::string> kSimulatedLenses{"slow", "datasheet", "lively", "clean", "dirty", "ideal"};
 

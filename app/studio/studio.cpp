@@ -246,7 +246,7 @@ void Studio::takeNews(LinkNews news) {
     if (found && !playsOn(core_, options_.rig)) {
         playAtStart_ = false;
         say("The output core that runs already does not play on " + inWords(options_.rig) +
-                ": stop it with illuminatedfocus-core --stop, then start the studio again.",
+                ": choose the rig in Rig, which starts it anew, or stop it with illuminatedfocus-core --stop.",
             ui::Tone::error);
     }
     if (playAtStart_ && core_.connected) {
