@@ -234,10 +234,9 @@ void UsbHost::Impl::pull(UsbPort& port) {
     {
         const std::scoped_lock lock(devices);
         if (port.pulled) return;
-        port.pulled = port.gone = true;
+        port.pulled = true;
         port.pulledAt = std::chrono::steady_clock::now();
-        for (auto& [program, client] : port.clients)
-            client.urbs.clear();
+        port.leave();
         port.goOn(clock());  // whoever waits is told
         port.device->unplugged(clock());
     }

@@ -42,7 +42,8 @@ UsbPort::Fetched UsbPort::fetched(UMockdevIoctlClient* client) {
 std::optional<Outcome> UsbPort::answer(UMockdevIoctlClient* client, Fetched fetched, bool& known) {
     UMockdevIoctlData* arg = umockdev_ioctl_client_get_arg(client);
     const unsigned long request = umockdev_ioctl_client_get_request(client);
-    if (gone) return Outcome{-1, ENODEV};
+    const bool asks = request == USBDEVFS_REAPURB || request == USBDEVFS_REAPURBNDELAY;
+    if (gone && !asks) return Outcome{-1, ENODEV};
     auto entry = std::ranges::find_if(clients, [&](const auto& known_) { return known_.first.get() == client; });
     if (entry == clients.end()) {
         forgetClosed();
@@ -85,7 +86,7 @@ std::optional<Outcome> UsbPort::answer(UMockdevIoctlClient* client, Fetched fetc
     case USBDEVFS_REAPURBNDELAY: {
         if (!fetched.whole) return Outcome{-1, EFAULT};
         const Outcome reaped = reap(program, fetched.data);
-        if (reaped.second != EAGAIN || patience.count() == 0) return reaped;
+        if (reaped.first == 0 || patience.count() == 0) return reaped;
         program.askedFor = std::move(fetched.data);
         program.asksUntil = std::chrono::steady_clock::now() + patience;
         onWaiting();
@@ -130,7 +131,9 @@ Outcome UsbPort::submit(Client& client, Fetched fetched) {
     ++*transfers;
     progress(client, now_ns());
     if (patience.count() > 0 && !client.urbs.empty() && !client.urbs.back().done) onWaiting();
-    return gone ? Outcome{-1, ENODEV} : Outcome{0, 0};
+    if (!gone) return {0, 0};
+    client.urbs.pop_back();
+    return {-1, ENODEV};
 }
 
 /// Of each endpoint the oldest transfer that is not done goes on as far as the device lets it.
@@ -172,7 +175,7 @@ void UsbPort::progress(Urb& urb, std::int64_t now) {
     case UsbAnswer::busy:
         break;
     case UsbAnswer::gone:
-        gone = true;
+        leave();
         onGone(*this);
         break;
     }
@@ -180,12 +183,30 @@ void UsbPort::progress(Urb& urb, std::int64_t now) {
 
 Outcome UsbPort::reap(Client& client, const IoctlData& pointer) {
     progress(client, now_ns());
-    if (gone) return {-1, ENODEV};
+    // Also of a device that is gone. libusb is told so by poll() as well, which umockdev cannot; without it, it waits
+    // for each transfer to come back.
     const auto done = std::ranges::find_if(client.urbs, &Urb::done);
-    if (done == client.urbs.end()) return {-1, EAGAIN};
+    if (done == client.urbs.end()) return {-1, gone ? ENODEV : EAGAIN};
     umockdev_ioctl_data_set_ptr(pointer.get(), 0, done->data.get());
     client.urbs.erase(done);
     return {0, 0};
+}
+
+void UsbPort::leave() {
+    gone = true;
+    for (auto& [program, client] : clients) {
+        for (Urb& urb : client.urbs)
+            if (!urb.done) urb.finish(-ESHUTDOWN);
+        if (client.asksUntil) client.asksUntil = std::chrono::steady_clock::time_point::min();
+    }
+}
+
+void UsbPort::endTransfers() {
+    for (auto& [program, client] : clients) {
+        for (Urb& urb : client.urbs) {
+            if (!urb.done) urb.finish(-ESHUTDOWN);
+        }
+    }
 }
 
 bool UsbPort::waits() const {
@@ -198,7 +219,7 @@ void UsbPort::goOn(std::int64_t now) {
         progress(client, now);
         if (!client.asksUntil) continue;
         const Outcome reaped = reap(client, client.askedFor);
-        if (reaped.second == EAGAIN && std::chrono::steady_clock::now() < *client.asksUntil) continue;
+        if (reaped.first != 0 && std::chrono::steady_clock::now() < *client.asksUntil) continue;
         client.asksUntil.reset();
         client.askedFor.reset();
         umockdev_ioctl_client_complete(program.get(), reaped.first, reaped.second);

@@ -103,9 +103,13 @@ struct UsbPort {
     Outcome claim(Client& client);
     Outcome submit(Client& client, Fetched fetched);
     Outcome reap(Client& client, const IoctlData& pointer);
+    /// The device is gone: what was handed in comes back as such, and nothing more is taken.
+    void leave();
     /// What a host controller does by itself: transfers go on, and whoever waits for one is answered.
     void goOn(std::int64_t now);
     /// Somebody has handed something in, or asked.
+    /// What is under way ends with "no device".
+    void endTransfers();
     bool waits() const;
     Outcome discard(Client& client, const void* address);
     void progress(Client& client, std::int64_t now);

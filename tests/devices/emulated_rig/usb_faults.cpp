@@ -104,7 +104,7 @@ TEST_CASE("emulated rig: whatever is pulled or fails during a show, light ends w
     }
     const auto stage = rig.stage(4);
     struct Case {
-        const char *device, *kind, *mends;
+        std::string device, kind, mends;
     };
     for (const auto& [device, kind, mends] :
          {Case{"lenses", "underrun", "none"}, Case{"lenses", "unplug", "plug"}, Case{"projector", "wrong-mode", "none"},
