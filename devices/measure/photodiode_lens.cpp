@@ -37,6 +37,7 @@ std::string decimals(double value) {
 /// Between the first and the last known current, those included, ascending.
 std::vector<double> currentsOf(const StaticSweepSetup& setup) {
     std::vector<double> currents;
+    currents.reserve(setup.known.size() + static_cast<std::size_t>(setup.steps));
     for (const StaticPower& one : setup.known)
         currents.push_back(one.current.si());
     const double low = currents.front(), high = currents.back(), step = (high - low) / (setup.steps - 1);
