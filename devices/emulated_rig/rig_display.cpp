@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
 #include <sys/ipc.h>
 #include <sys/prctl.h>
 #include <sys/shm.h>
@@ -15,8 +14,8 @@
 #include <array>
 #include <cassert>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <sstream>
 #include <string_view>
@@ -90,6 +89,7 @@ std::vector<char*> plainEnvironment() {
 
 pid_t startedProgram(const std::string& program, std::vector<std::string> arguments) {
     std::vector<char*> words;
+    words.reserve(arguments.size() + 1);
     for (std::string& argument : arguments)
         words.push_back(argument.data());
     words.push_back(nullptr);
@@ -213,7 +213,7 @@ Result<void> RigDisplay::Impl::sharesMemory() {
     const std::size_t bytes = 4 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     const int id = shmget(IPC_PRIVATE, bytes, IPC_CREAT | 0600);
     void* memory = id >= 0 ? shmat(id, nullptr, 0) : nullptr;
-    if (memory == nullptr || memory == reinterpret_cast<void*>(-1))
+    if (memory == nullptr || reinterpret_cast<std::intptr_t>(memory) == -1)
         return fail(Fault::device, "There is no shared memory for the emulated projector's picture.");
     pixels = static_cast<std::uint8_t*>(memory);
     segment = xcb_generate_id(x);
