@@ -51,6 +51,9 @@ LensWiring wiringFrom(JsonReader reader) {
 
 Json written(const RigDevices& devices, Json json) {
     json.set("projector_at", devices.projectorAt);
+    json.set("projector_plugin", devices.projectorPlugin);
+    json.set("projector_options", devices.projectorOptions);
+    json.set("rehearsal", devices.rehearsal);
     json.set("lenses_at", devices.lensesAt);
     json.set("display", written(devices.display, json.object("display")));
     json.set("left_lens", written(devices.left, json.object("left_lens")));
@@ -63,6 +66,9 @@ Json written(const RigDevices& devices, Json json) {
 RigDevices rigDevicesFrom(JsonReader reader) {
     RigDevices devices;
     devices.projectorAt = reader.word("projector_at", "");
+    devices.projectorPlugin = reader.word("projector_plugin", "");
+    devices.projectorOptions = reader.word("projector_options", "");
+    devices.rehearsal = reader.flag("rehearsal", false);
     devices.lensesAt = reader.word("lenses_at", "");
     if (reader.has("display")) {
         JsonReader display = reader.object("display");

@@ -22,7 +22,9 @@ Result<PlayedRig> playedRig(const std::string& wordOrFile) {
 }
 
 bool lightsThroughDisplay(const PlayedRig& played) {
-    return played.machine != Machine::simulated && played.rig.kind == ProjectorKind::lightCrafter4500;
+    if (played.machine == Machine::simulated) return false;
+    return played.rig.devices->rehearsal ||
+           (played.rig.devices->projectorPlugin.empty() && played.rig.kind == ProjectorKind::lightCrafter4500);
 }
 
 Result<void> seesEmulatedRig(const std::filesystem::path& runtimeDirectory) {

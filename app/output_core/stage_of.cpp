@@ -1,12 +1,17 @@
 #include "app/output_core/stage_of.h"
 
+#include <cstdlib>
 #include <utility>
 
+#include "app/output_core/events.h"
+#include "app/output_core/log.h"
 #include "app/output_core/rest_current.h"
 #include "app/output_core/stage_mark.h"
 #include "app/output_core/unplayable_stage.h"
 #include "app/output_core/usb_place.h"
 #include "devices/dlpc350/lightcrafter.h"
+#include "devices/plugin/plugin_stage.h"
+#include "devices/rig/any_projector_stage.h"
 #include "devices/rig/lightcrafter_stage.h"
 #include "devices/rig/pattern_frames.h"
 #include "devices/rig/usb1208_lens.h"
@@ -44,26 +49,26 @@ private:
 /// Marks where this wearer's lenses rest, for whoever comes after a player that was killed.
 class MarkedStage : public devices::Stage {
 public:
-    MarkedStage(devices::LightCrafterRig rig, std::filesystem::path runtimeDirectory)
-        : directory_(std::move(runtimeDirectory)), rest_(rig.rest), next_(rest_), stage_(std::move(rig)) {}
+    MarkedStage(std::unique_ptr<devices::Stage> stage, Dioptre rest, std::filesystem::path runtimeDirectory)
+        : directory_(std::move(runtimeDirectory)), rest_(rest), next_(rest), stage_(std::move(stage)) {}
     Result<void> load(const Program& program) override {
         next_ = program.waveform.rest;
-        return stage_.load(program);
+        return stage_->load(program);
     }
     Result<void> swap() override {
         // First: lenses go there on the way.
         if (std::exchange(rest_, next_) != next_) markStage(directory_, rest_);
-        return stage_.swap();
+        return stage_->swap();
     }
-    Result<void> heartbeat() override { return stage_.heartbeat(); }
-    void safeLight() noexcept override { stage_.safeLight(); }
-    devices::StageReport report() const override { return stage_.report(); }
-    std::string name() const override { return stage_.name(); }
+    Result<void> heartbeat() override { return stage_->heartbeat(); }
+    void safeLight() noexcept override { stage_->safeLight(); }
+    devices::StageReport report() const override { return stage_->report(); }
+    std::string name() const override { return stage_->name(); }
 
 private:
     std::filesystem::path directory_;
     Dioptre rest_, next_;
-    devices::LightCrafterStage stage_;
+    std::unique_ptr<devices::Stage> stage_;
 };
 
 Result<std::unique_ptr<devices::StageProjector>> openedProjector(UsbPlaces& usb, const std::string& place) {
@@ -105,11 +110,43 @@ Result<std::unique_ptr<devices::Stage>> lightCrafterStage(const PlayedRig& playe
     rig.emulated = played.machine == Machine::emulated;
     if (rig.emulated) rig.name = "emulated LightCrafter 4500 and lenses";
     rig.rest = markedRest(directory);
-    return std::make_unique<MarkedStage>(std::move(rig), directory);
+    const Dioptre rest = rig.rest;
+    return std::make_unique<MarkedStage>(std::make_unique<devices::LightCrafterStage>(std::move(rig)), rest, directory);
+}
+
+Result<std::unique_ptr<devices::Stage>> rehearsal(const PlayedRig& played) {
+    auto video = devices::displayOutput({played.rig.devices->display, played.rig.projector});
+    if (!video) return tl::unexpected(video.error());
+    return devices::AnyProjectorStage::open(*std::move(video), devices::StagePurpose::rehearsal);
+}
+
+/// A call into a vendor's library that never returns leaves slots that nobody watches: this process ends, and the next
+/// one makes light safe first.
+void endHanging(const std::string& sentence) {
+    note(event::kPlayerHangs, sentence);
+    std::_Exit(1);
+}
+
+std::unique_ptr<devices::Stage> pluginStage(const PlayedRig& played, const std::filesystem::path& directory) {
+    const RigDevices wired = *played.rig.devices;
+    const auto usb = std::make_shared<UsbPlaces>();
+    devices::PluginRig rig;
+    rig.openProjector = [wired] {
+        devices::HangingCall hanging;
+        hanging.noticed = endHanging;
+        return devices::openedPlugin(wired.projectorPlugin, wired.projectorAt, wired.projectorOptions,
+                                     devices::Clock::steady(), std::move(hanging));
+    };
+    rig.openLens = [usb, wired](Dioptre rest) { return openedLenses(*usb, wired, rest, false); };
+    rig.bits = played.rig.bits;
+    return std::make_unique<MarkedStage>(std::make_unique<devices::PluginStage>(std::move(rig)), markedRest(directory),
+                                         directory);
 }
 
 Result<std::unique_ptr<devices::Stage>> playable(const PlayedRig& played, const std::filesystem::path& directory) {
     if (played.machine == Machine::simulated) return std::make_unique<ConnectedStage>(directory);
+    if (played.rig.devices->rehearsal) return rehearsal(played);
+    if (!played.rig.devices->projectorPlugin.empty()) return pluginStage(played, directory);
     if (played.rig.kind == ProjectorKind::highSpeed)
         return fail(Fault::unsupported,
                     "A projector of the 1000 Hz class is driven by its maker's software, through a plugin, and this "

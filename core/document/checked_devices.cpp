@@ -31,6 +31,19 @@ Result<void> checkedPlace(const std::string& spoken, const std::string& place) {
                                        "illuminatedfocus --list-devices), or empty where there is only one.");
 }
 
+Result<void> checkedPlugin(const RigDevices& devices) {
+    constexpr std::size_t kLongest = 4000;
+    const std::string& path = devices.projectorPlugin;
+    if (path.size() > kLongest || devices.projectorOptions.size() > kLongest)
+        return fail(Fault::outOfRange, "The projector's plugin and its options may have 4000 letters each at most.");
+    if (!path.empty() && path.front() != '/')
+        return fail(Fault::outOfRange, "The projector's plugin must be named by its whole path, such as "
+                                       "/opt/vendor/projector.so: nothing is searched for.");
+    if (!path.empty() && devices.rehearsal)
+        return fail(Fault::outOfRange, "A rig rehearses on a display or plays through a plugin: leave one of the two.");
+    return {};
+}
+
 Result<void> checkedText(const std::string& text) {
     if (text.empty()) return {};
     const auto fine = checkedName(text);
@@ -87,10 +100,11 @@ Result<void> checkedWiring(const LensWiring& wiring, const std::string& lens) {
 
 Result<void> checked(const RigDevices& devices) {
     for (const auto& ok :
-         {checkedPlace("projector", devices.projectorAt), checkedPlace("lenses", devices.lensesAt),
-          checkedText(devices.display.connector), checkedText(devices.display.maker),
-          checkedText(devices.display.model), checkedText(devices.display.serial), checkedWiring(devices.left, "left"),
-          checkedWiring(devices.right, "right"),
+         {checkedPlugin(devices),
+          devices.projectorPlugin.empty() ? checkedPlace("projector", devices.projectorAt) : Result<void>(),
+          checkedPlace("lenses", devices.lensesAt), checkedText(devices.display.connector),
+          checkedText(devices.display.maker), checkedText(devices.display.model), checkedText(devices.display.serial),
+          checkedWiring(devices.left, "left"), checkedWiring(devices.right, "right"),
           inRange("the low level of the projector's trigger", devices.triggerLow.si(), 0.0, 10.0, "V"),
           inRange("the high level of the projector's trigger", devices.triggerHigh.si(), 0.0, 10.0, "V")})
         if (!ok) return ok;

@@ -51,12 +51,17 @@ struct LensWiring {
 /// In a rig file under "devices". Places are where they hang on the USB ("1-2", "1-2.3"), so that two of a kind are
 /// never exchanged; empty: the only one there is.
 struct RigDevices {
-    std::string projectorAt;  ///< LightCrafter 4500
+    std::string projectorAt;  ///< LightCrafter 4500, or where the plugin looks for its projector
     std::string lensesAt;     ///< USB-1208FS-Plus: AO0 left, AO1 right, AI0 the projector's TRIG_OUT_2, AI1 AO0's echo
     /// Of the projector. All empty: the only display of exactly the projector's raster.
     DisplayIdentity display;
     LensWiring left, right;
     Volt triggerLow = Volt::fromSi(0.8), triggerHigh = Volt::fromSi(2.0);  ///< of TRIG_OUT_2, for 3.3 V logic
+    /// A vendor's projector is driven by this library (absolute path, see devices/plugin), told these options; empty:
+    /// a LightCrafter 4500.
+    std::string projectorPlugin{}, projectorOptions{};
+    /// Any projector on `display`, to rehearse masks: all slots' light together, no lenses, nothing is blurred.
+    bool rehearsal = false;
     bool operator==(const RigDevices&) const = default;
 };
 

@@ -12,6 +12,7 @@
 #include <xcb/xcb.h>
 
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <chrono>
 #include <csignal>
@@ -171,8 +172,10 @@ Result<std::unique_ptr<RigDisplay>> RigDisplay::started(Size size, int number) {
                                      "package xvfb).");
     std::array<int, 2> pipe{};
     if (pipe2(pipe.data(), O_CLOEXEC) != 0) return fail(Fault::device, "There are no more files for a display's pipe.");
-    std::vector<std::string> arguments{program};
-    if (number >= 0) arguments.push_back(":" + std::to_string(number));
+    // Far above those that servers take by themselves: while it is unplugged, nobody else takes its number.
+    static std::atomic<int> made = 0;
+    if (number < 0) number = 2000 + (8 * getpid() + made++) % 40'000;
+    std::vector<std::string> arguments{program, ":" + std::to_string(number)};
     const std::string screen = std::to_string(size.width) + "x" + std::to_string(size.height) + "x24";
     const int toUs = dup(pipe[1]);  // not closed by exec
     for (const std::string& word :

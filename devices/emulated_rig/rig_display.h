@@ -15,7 +15,7 @@ namespace ilf::devices {
 /// draws one request at a time. Where nothing covers it, it is white, as the desktop of a projector should be.
 class RigDisplay {
 public:
-    /// On the display `number`, or on a free one below 0. The server sees neither the emulated bus nor a preloaded
+    /// On the display `number`, or on one of its own below 0. The server sees neither the emulated bus nor a preloaded
     /// library. Refuses in one sentence where there is no Xvfb or it does not start.
     static Result<std::unique_ptr<RigDisplay>> started(Size size, int number = -1);
     /// Ends the server: whoever shows something loses the display.

@@ -52,7 +52,11 @@ TEST_CASE("rig's devices: what is saved opens the same, and an older file has no
                                  someWiring(),
                                  someWiring(),
                                  Volt::fromSi(number(0.1, 0.9)),
-                                 Volt::fromSi(number(1.0, 3.0))};
+                                 Volt::fromSi(number(1.0, 3.0)),
+                                 *rc::gen::element<std::string>("", "/opt/vendor/projector.so"),
+                                 *rc::gen::element<std::string>("", "mode=1, \"slow\""),
+                                 false};
+        rig.devices->rehearsal = rig.devices->projectorPlugin.empty() && *rc::gen::arbitrary<bool>();
         RC_ASSERT(writeRig(folder / "r.json", rig).has_value());
         const auto opened = readRig(folder / "r.json");
         if (!opened) RC_FAIL(opened.error().what);
@@ -90,6 +94,12 @@ TEST_CASE("rig's devices: what cannot be is refused with what to correct") {
         return refusal(rig);
     };
     const auto says = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+    CHECK(says(refused([](RigDevices& d) { d.projectorPlugin = "vendor.so"; }), "nothing is searched for"));
+    CHECK(says(refused([](RigDevices& d) {
+                   d.projectorPlugin = "/opt/vendor.so";
+                   d.rehearsal = true;
+               }),
+               "leave one of the two"));
     CHECK(says(refused([](RigDevices& d) { d.projectorAt = "COM3"; }), "the projector must be one on the USB"));
     CHECK(says(refused([](RigDevices& d) { d.lensesAt = "1-2."; }), "the lenses must be one on the USB"));
     CHECK(says(refused([](RigDevices& d) { d.projectorAt = d.lensesAt = "1-2"; }), "same place"));

@@ -4,6 +4,7 @@
 // minute.
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -116,8 +117,10 @@ private:
         std::printf("%.0f,%d,%d,%d,%d,%llu,%d,%.1f,%.1f,%.1f\n", seconds, pulls_ + (pulled_ ? 1 : 0), pulls_, takes_,
                     shown_, static_cast<unsigned long long>(s.faults), starts_, now.supervisor, now.player, now.rig);
         std::fflush(stdout);
-        if (seconds < 60.0) early_ = now;
-        late_ = now;
+        Memory& most = seconds < 60.0 ? early_ : late_;
+        most.supervisor = std::max(most.supervisor, now.supervisor);
+        most.player = std::max(most.player, now.player);
+        most.rig = std::max(most.rig, now.rig);
     }
 
     int judged() const {
@@ -150,7 +153,7 @@ private:
     bool pulled_ = false;
     std::uint64_t revision_ = 0, shownRevision_ = 0, takenHold_ = 0;
     Clock::time_point takenAt_;
-    Memory early_, late_;
+    Memory early_, late_;  ///< the most of the first minute, and since
 };
 
 }  // namespace

@@ -75,6 +75,27 @@ TEST_CASE("rig choice: a rig that cannot be played refuses with the reason and n
     CHECK(unready->report().emulated);
 }
 
+TEST_CASE("rig choice: a vendor's projector comes through the plugin that the rig names, or nothing plays") {
+    Folder folder;
+    PlayedRig rig{"room.json", Rig{}, Machine::real};
+    rig.rig.devices.emplace().projectorPlugin = (folder / "none.so").string();
+    CHECK_FALSE(lightsThroughDisplay(rig));
+    const auto stage = stageOf(rig, folder.path());
+    CHECK(says(stage->name(), "through a plugin"));
+    const auto found = stage->heartbeat();
+    REQUIRE_FALSE(found);
+    CHECK(says(found.error().what, "none.so"));
+    CHECK_FALSE(stage->report().well);
+}
+
+TEST_CASE("rig choice: any projector rehearses, lit through a display, and moves no lens") {
+    Folder folder;
+    PlayedRig rig{"room.json", Rig{}, Machine::real};
+    rig.rig.devices.emplace().rehearsal = true;
+    CHECK(lightsThroughDisplay(rig));
+    CHECK(says(stageOf(rig, folder.path())->name(), "nothing is blurred"));
+}
+
 TEST_CASE("rest current: on the straight line between two points, and nowhere beyond them") {
     law("each point gives its own current, and what lies between stays between and in order", [] {
         const LensWiring wiring = someWiring();
