@@ -32,15 +32,28 @@ Offset<wire::Waveform> encode(FlatBufferBuilder& fb, const Waveform& w) {
                                 static_cast<wire::Provenance>(w.provenance), w.temperature_C, w.warming_C);
 }
 
+std::size_t bytesOf(const TilePart& part) { return static_cast<std::size_t>(part.width * part.height); }
+
+Offset<flatbuffers::Vector<std::uint8_t>> partOf(FlatBufferBuilder& fb, const TileUpdate& t) {
+    std::uint8_t* to = nullptr;
+    const auto values = fb.CreateUninitializedVector(bytesOf(t.part), 1, &to);
+    for (int y = t.part.y; y < t.part.y + t.part.height; ++y)
+        to = std::copy_n(t.tile->v.data() + y * kTile + t.part.x, t.part.width, to);
+    return values;
+}
+
 Offset<flatbuffers::Vector<Offset<wire::Tile>>> encode(FlatBufferBuilder& fb, const std::vector<TileUpdate>& tiles) {
     std::vector<Offset<wire::Tile>> out;
     out.reserve(tiles.size());
     for (const auto& t : tiles) {
         const auto& v = t.tile->v;
         const bool uniform = t.tile.same(uniformTile(v[0]));
-        const auto values = fb.CreateVector(v.data(), uniform ? 1 : v.size());
+        const bool whole = t.part.isWhole();
+        const auto values = whole ? fb.CreateVector(v.data(), uniform ? 1 : v.size()) : partOf(fb, t);
+        const auto byte = [whole](int value) { return static_cast<std::uint8_t>(whole ? 0 : value); };
         out.push_back(wire::CreateTile(fb, static_cast<std::uint16_t>(t.image), static_cast<std::uint16_t>(t.column),
-                                       static_cast<std::uint16_t>(t.row), values));
+                                       static_cast<std::uint16_t>(t.row), values, byte(t.part.x), byte(t.part.y),
+                                       byte(t.part.width), byte(t.part.height)));
     }
     return fb.CreateVector(out);
 }
@@ -216,6 +229,18 @@ Result<std::vector<TileUpdate>> decode(const flatbuffers::Vector<Offset<wire::Ti
     out.reserve(tiles.size());
     for (const auto* t : tiles) {
         const auto* values = t->values();
+        if (t->width() != 0) {
+            const TilePart part{t->x(), t->y(), t->width(), t->height()};
+            if (part.height < 1 || part.x + part.width > kTile || part.y + part.height > kTile ||
+                values->size() != bytesOf(part))
+                return fail(Fault::badFile, "a message holds a part of a tile that does not fit into it.");
+            Tile tile;
+            const std::uint8_t* from = values->data();
+            for (int y = part.y; y < part.y + part.height; ++y, from += part.width)
+                std::copy_n(from, part.width, tile.v.data() + y * kTile + part.x);
+            out.push_back({t->image(), t->column(), t->row(), boxed(tile), part});
+            continue;
+        }
         if (values->size() != 1 && values->size() != kTileBytes)
             return fail(Fault::badFile, "a message holds a tile of " + std::to_string(values->size()) +
                                             " bytes; a tile has 1 or " + std::to_string(kTileBytes) + ".");

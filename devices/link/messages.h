@@ -16,10 +16,18 @@ namespace ilf::devices {
 /// Why a program is sent. Only a take ends safe light; a live update is refused while safe light is held.
 enum class Why { live, take };
 
-/// One tile of one image that differs from the base.
+/// A rectangle of a tile.
+struct TilePart {
+    int x = 0, y = 0, width = kTile, height = kTile;
+    bool operator==(const TilePart&) const = default;
+    bool isWhole() const { return width == kTile && height == kTile; }
+};
+
+/// One tile of one image that differs from the base: only within `part`, and only that travels; 0 beside it.
 struct TileUpdate {
     int image = 0, column = 0, row = 0;
     Box<Tile> tile;
+    TilePart part{};
     bool operator==(const TileUpdate&) const = default;
 };
 

@@ -1,5 +1,7 @@
 #include "devices/link/program_update.h"
 
+#include <algorithm>
+
 #include "devices/link/codec.h"
 
 namespace ilf::devices {
@@ -11,6 +13,33 @@ std::string name(std::uint64_t hash) {
     for (std::size_t i = 0; i < 16; ++i)
         out[15 - i] = kDigits[(hash >> (4 * i)) & 15U];
     return out;
+}
+
+/// Where two tiles differ; they do somewhere.
+TilePart partThatDiffers(const Tile& one, const Tile& other) {
+    int x0 = kTile, y0 = kTile, x1 = 0, y1 = 0;
+    for (int y = 0; y < kTile; ++y) {
+        const auto* a = one.v.data() + y * kTile;
+        const auto* b = other.v.data() + y * kTile;
+        const auto first = static_cast<int>(std::mismatch(a, a + kTile, b).first - a);
+        if (first == kTile) continue;
+        int last = kTile - 1;
+        while (a[last] == b[last])
+            --last;
+        x0 = std::min(x0, first);
+        x1 = std::max(x1, last + 1);
+        y0 = std::min(y0, y);
+        y1 = y + 1;
+    }
+    return {x0, y0, x1 - x0, y1 - y0};
+}
+
+/// `from` within `part`, `beside` elsewhere.
+Tile pasted(const Tile& from, const TilePart& part, const Tile& beside) {
+    Tile tile = beside;
+    for (int y = part.y; y < part.y + part.height; ++y)
+        std::copy_n(from.v.data() + y * kTile + part.x, part.width, tile.v.data() + y * kTile + part.x);
+    return tile;
 }
 
 }  // namespace
@@ -32,7 +61,14 @@ ProgramUpdate difference(const Program& program, std::uint64_t hash, const Progr
             for (int column = 0; column < image.columns(); ++column) {
                 const Box<Tile>& tile = image.tile(column, row);
                 const Box<Tile>& before = hasBase ? base->images[i].tile(column, row) : uniformTile(0);
-                if (!(tile == before)) update.tiles.push_back({static_cast<int>(i), column, row, tile});
+                if (tile == before) continue;
+                TileUpdate changed{static_cast<int>(i), column, row, tile, {}};
+                // An even tile is a single byte already; one without a base has nothing to lie beside.
+                if (hasBase && !tile.same(uniformTile(tile->v[0]))) {
+                    changed.part = partThatDiffers(*tile, *before);
+                    if (!changed.part.isWhole()) changed.tile = boxed(pasted(*tile, changed.part, Tile{}));
+                }
+                update.tiles.push_back(std::move(changed));
             }
         }
     }
@@ -74,7 +110,11 @@ Result<Program> assembled(const ProgramUpdate& update, const Program* base, std:
         if (t.image < 0 || t.image >= update.images || t.column < 0 || t.row < 0 || t.column >= tilesOf(size.width) ||
             t.row >= tilesOf(size.height) || !t.tile)
             return fail(Fault::badFile, "An update holds a tile that lies outside its program.");
-        program.images[static_cast<std::size_t>(t.image)].setTile(t.column, t.row, t.tile);
+        LightImage& image = program.images[static_cast<std::size_t>(t.image)];
+        if (t.part.isWhole())
+            image.setTile(t.column, t.row, t.tile);
+        else
+            image.setTile(t.column, t.row, boxed(pasted(*t.tile, t.part, *image.tile(t.column, t.row))));
     }
     const std::uint64_t hash = contentHash(program);
     if (hash != update.hash)
