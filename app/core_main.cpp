@@ -2,9 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "app/output_core/roles.h"
+#include "devices/link/rig_mishap.h"
 #include "devices/link/runtime_directory.h"
+#include "devices/simulated/device_client.h"
 #include "ilf/version.h"
 
 namespace {
@@ -12,6 +15,14 @@ namespace {
 int refused(const ilf::Error& error, int code) {
     std::fprintf(stderr, "%s\n", error.what.c_str());
     return code;
+}
+
+int befall(const std::string& directory, const std::string& text) {
+    const auto mishap = ilf::devices::mishapFrom(text);
+    if (!mishap) return refused(mishap.error(), 2);
+    // A display takes a while to be plugged in.
+    const auto done = ilf::devices::DeviceClient(directory, std::chrono::milliseconds(10'000)).mishap(*mishap);
+    return done ? 0 : refused(done.error(), 3);
 }
 
 int run(int argc, char** argv) {
@@ -37,12 +48,17 @@ int run(int argc, char** argv) {
     options.add_flag("--release-display", releaseDisplay, "With --stop: the projector's display, too, is given back")
         ->needs(stopFlag);
     auto* statusFlag = options.add_flag("--status", status, "Print what core and devices say, as one line of JSON");
+    std::string mishap;
+    auto* mishapOption = options.add_option(
+        "--mishap", mishap,
+        "Let something go wrong in the emulated rig that plays: DEVICE:KIND, such as projector:unplug, display:unplug, "
+        "lenses:underrun or projector:wrong-mode; DEVICE:plug puts a cable back, DEVICE:none ends the rest");
     auto* playerFlag = options.add_flag("--player", player, "Be the player (its supervisor starts it)");
     auto* devicesFlag = options.add_flag("--devices", devices, "Be the simulated or emulated devices");
     auto* guardFlag = options.add_flag("--guard", guard, "Be the white below the player's window");
     auto* safeFlag = options.add_flag("--make-safe", makeSafe, "Make a stage safe that nobody holds, and end");
     options.add_option("--after-fault", afterFault, "With --player: why the one before it ended")->needs(playerFlag);
-    CLI::Option* roles[] = {stopFlag, statusFlag, playerFlag, devicesFlag, guardFlag, safeFlag};
+    CLI::Option* roles[] = {stopFlag, statusFlag, mishapOption, playerFlag, devicesFlag, guardFlag, safeFlag};
     for (auto* one : roles)
         for (auto* other : roles)
             if (one != other) one->excludes(other);
@@ -54,6 +70,7 @@ int run(int argc, char** argv) {
     }
     if (status) return ilf::app::printStatus(directory);
     if (stop) return ilf::app::stopSupervisor(directory, releaseDisplay);
+    if (!mishap.empty()) return befall(directory, mishap);
     auto played = ilf::app::playedRig(rig);
     if (!played) return refused(played.error(), 2);
     if (played->machine == ilf::app::Machine::emulated && lensWord == "ideal")

@@ -17,7 +17,7 @@
 #include "app/headless/run_report.h"
 #include "app/pictures_of.h"
 #include "app/rigs.h"
-#include "app/words.h"
+#include "devices/link/rig_mishap.h"
 
 namespace ilf::app {
 namespace {
@@ -51,36 +51,10 @@ Result<json> receivedAgainstIntended(OwnCore& core, const Program& program) {
     return slots;
 }
 
-/// "DEVICE:KIND[:AFTER[:TIMES[:AMOUNT]]]"
-Result<devices::RigMishap> mishapFrom(const std::string& text) {
-    std::vector<std::string> parts;
-    for (std::size_t from = 0; from <= text.size();) {
-        const auto colon = std::min(text.find(':', from), text.size());
-        parts.push_back(text.substr(from, colon - from));
-        from = colon + 1;
-    }
-    const auto help = "\"" + text + "\" is no mishap: write DEVICE:KIND[:AFTER[:TIMES[:AMOUNT]]], such as " +
-                      "projector:unplug or lenses:clock-drift:0:0:200.";
-    if (parts.size() < 2 || parts.size() > 5 || parts[0].empty() || parts[1].empty())
-        return fail(Fault::outOfRange, help);
-    devices::RigMishap mishap{parts[0], parts[1]};
-    const auto number = [&](std::size_t part, double otherwise) -> std::optional<double> {
-        if (part >= parts.size()) return otherwise;
-        return wholeNumber(parts[part]);
-    };
-    const auto after = number(2, 0.0), times = number(3, 0.0), amount = number(4, 0.0);
-    if (!after || !times || !amount || !(*after >= 0.0 && *after < 1e15) || !(*times >= 0.0 && *times < 1e15))
-        return fail(Fault::outOfRange, help);
-    mishap.after = static_cast<std::uint64_t>(*after);
-    mishap.times = static_cast<std::uint64_t>(*times);
-    mishap.amount = *amount;
-    return mishap;
-}
-
 Result<std::vector<devices::RigMishap>> mishapsOf(const RunOptions& options) {
     std::vector<devices::RigMishap> mishaps;
     for (const std::string& text : options.mishaps) {
-        auto mishap = mishapFrom(text);
+        auto mishap = devices::mishapFrom(text);
         if (!mishap) return tl::unexpected(mishap.error());
         mishaps.push_back(*std::move(mishap));
     }
