@@ -114,8 +114,13 @@ Result<void> RigCables::befall(const RigMishap& mishap) {
                     "An emulated rig has no \"" + mishap.device + "\": mishaps befall projector, lenses or display.");
     const std::size_t device = mishap.device == "projector" ? 0 : 1;
     const bool pulled = mishap.kind == "unplug" && mishap.after == 0, putIn = mishap.kind == "plug";
+    if (device == 0 && mishap.kind == "power-cycle") {
+        bus_->locked([&](std::int64_t now_ns) { projector_.powerCycle(now_ns); });
+        return {};
+    }
     if (!putIn && mishap.kind != "none" && !mishapFromWord(mishap.kind))
-        return fail(Fault::outOfRange, "\"" + mishap.kind + "\" is no mishap: plug, none, " + mishapWords() + ".");
+        return fail(Fault::outOfRange, "\"" + mishap.kind + "\" is no mishap: plug, none, power-cycle (projector), " +
+                                           mishapWords() + ".");
     bus_->locked([&](std::int64_t now_ns) {
         auto& faults = faults_[device];
         if (mishap.kind == "none")

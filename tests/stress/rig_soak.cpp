@@ -44,7 +44,7 @@ public:
           rig_(directory, milliseconds(3000)) {}
 
     int run(Clock::duration time) {
-        std::puts("s,pulled,put back,takes,shown,faults,player starts,supervisor_MiB,player_MiB,rig_MiB");
+        std::puts("s,pulled,put back,takes,shown,faults,player starts,power cycles,supervisor_MiB,player_MiB,rig_MiB");
         const auto start = Clock::now();
         auto nextEvent = start + every_, nextLine = start;
         while (Clock::now() - start < time) {
@@ -96,6 +96,14 @@ private:
             ++starts_;
         }
         if (!status.connected || pulled_) return;
+        // A board hangs after some 25 changes from patterns to video, as users report of the real one.
+        for (const auto& device : status.devices)
+            if (device.what == "projector" && device.health == devices::DeviceHealth::silent &&
+                Clock::now() - cycledAt_ > std::chrono::seconds(5) &&
+                rig_.mishap({"projector", "power-cycle", 0, 0, 0.0})) {
+                cycledAt_ = Clock::now();
+                ++powerCycles_;
+            }
         if (status.revisionPlayed == revision_ && revision_ != 0) {
             if (shownRevision_ != revision_) ++shown_;
             shownRevision_ = revision_;
@@ -114,8 +122,9 @@ private:
         const auto& s = link_.status();
         const auto devices = devices::FileLock::holder(devices::devicesLock(directory_));
         const Memory now{resident_MiB(s.supervisorPid), resident_MiB(s.pid), resident_MiB(devices.value_or(0))};
-        std::printf("%.0f,%d,%d,%d,%d,%llu,%d,%.1f,%.1f,%.1f\n", seconds, pulls_ + (pulled_ ? 1 : 0), pulls_, takes_,
-                    shown_, static_cast<unsigned long long>(s.faults), starts_, now.supervisor, now.player, now.rig);
+        std::printf("%.0f,%d,%d,%d,%d,%llu,%d,%d,%.1f,%.1f,%.1f\n", seconds, pulls_ + (pulled_ ? 1 : 0), pulls_, takes_,
+                    shown_, static_cast<unsigned long long>(s.faults), starts_, powerCycles_, now.supervisor,
+                    now.player, now.rig);
         std::fflush(stdout);
         Memory& most = seconds < 60.0 ? early_ : late_;
         most.supervisor = std::max(most.supervisor, now.supervisor);
@@ -149,10 +158,10 @@ private:
     Clock::duration every_;
     devices::CoreLink link_;
     devices::DeviceClient rig_;
-    int pulls_ = 0, takes_ = 0, shown_ = 0, player_ = 0, starts_ = 0;
+    int pulls_ = 0, takes_ = 0, shown_ = 0, player_ = 0, starts_ = 0, powerCycles_ = 0;
     bool pulled_ = false;
     std::uint64_t revision_ = 0, shownRevision_ = 0, takenHold_ = 0;
-    Clock::time_point takenAt_;
+    Clock::time_point takenAt_, cycledAt_;
     Memory early_, late_;  ///< the most of the first minute, and since
 };
 
