@@ -234,9 +234,9 @@ TEST_CASE("lightcrafter stage: after a fault a bare swap lights nothing; a new l
 }
 
 TEST_CASE("lightcrafter stage: light that came to be unknown is made white by the next heartbeat") {
+    int left = 1;  // first: the stage makes safe light when it goes
     ScriptedRig rig;
     REQUIRE(rig.played(kFirst));
-    int left = 1;
     rig.room.failsAt = [&](const std::string& call) {
         if (call == "video: white" && left-- > 0) throw std::bad_alloc();
         return false;
