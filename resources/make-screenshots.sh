@@ -28,3 +28,36 @@ shot museum museum-guide scene
 shot desk-perceived study-desk perceived
 shot four-objects-compare four-objects compare
 shot tools-light tutorial-recording light
+
+# The device panel: nothing attached, emulated and playing, unplugged, in the wrong mode; side by side.
+jq '.name = "Gallery 3" | .projector = {width_px: 912, height_px: 1140} | .projector_kind = "lightcrafter-4500" | .bits = 4
+    | .slot_rate_Hz = 360 | .sweep_rate_Hz = 60 | .provenance = "typed" | .devices = {projector_at: "1-2", lenses_at: "1-3",
+      display: {connector: "HDMI-2", maker: "TXN", model: "DLP4500", serial: ""}}' \
+    projects/samples/museum-guide.ilfd/rig.json >"$work/gallery.json"
+panel() { # NAME RIG LIGHT [MISHAP]
+    "$bin/illuminatedfocus-core" --runtime-dir "$ILF_RUNTIME_DIR" --stop >/dev/null 2>&1 || true
+    ILF_STATE_DIR="$work/state-$1" "$bin/illuminatedfocus" projects/samples/museum-guide.ilfd --rig "$2" --size 1440x920 >/dev/null 2>&1 &
+    local studio=$! asked=0
+    until "$bin/illuminatedfocus-core" --runtime-dir "$ILF_RUNTIME_DIR" --status 2>/dev/null |
+        jq -e ".core.light == \"$3\" and (.core.devices | length > 0)" >/dev/null; do
+        sleep 0.5
+        asked=$((asked + 1))
+        [ "$asked" -lt 80 ] || { echo "the rig $2 is not $3" >&2; exit 1; }
+    done
+    sleep 1
+    xdotool mousemove 1320 298 click 1 # the page "Rig"
+    if [ $# -gt 3 ]; then
+        "$bin/illuminatedfocus-core" --runtime-dir "$ILF_RUNTIME_DIR" --mishap "$4"
+        sleep 4
+    fi
+    sleep 1
+    import -window root -crop 316x400+1124+288 +repage "$work/panel-$1.png"
+    kill "$studio"
+    wait "$studio" 2>/dev/null || true
+}
+panel 1 "$work/gallery.json" steady
+panel 2 emulated slotted
+panel 3 emulated slotted projector:unplug
+panel 4 emulated slotted projector:wrong-mode:0:1
+convert "$work"/panel-[1234].png +append "$out/devices.png"
+echo "$out/devices.png"

@@ -1,4 +1,6 @@
 // The rig: how its devices are, how well the light keeps time, and its numbers.
+#include <algorithm>
+
 #include "ui/devices_card.h"
 #include "ui/widgets.h"
 
@@ -36,8 +38,14 @@ void rigNumbers(Panel& p) {
 
 void outputCore(Panel& p) {
     const CoreStatus& core = p.view.core;
+    // A projector that cannot be asked may show anything.
+    const bool asked = std::ranges::all_of(core.devices, [](const Device& device) {
+        return device.what == "lenses" || device.health == DeviceHealth::well ||
+               device.health == DeviceHealth::wrongMode;
+    });
     derivedRow(p, "Light",
-               core.light == Light::steady    ? "steady white"
+               !asked                         ? "not known"
+               : core.light == Light::steady  ? "steady white"
                : core.light == Light::slotted ? "plays a program"
                                               : "unknown");
     derivedRow(p, "Revision",
