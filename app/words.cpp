@@ -1,6 +1,8 @@
 #include "app/words.h"
 
 #include <charconv>
+#include <chrono>
+#include <ctime>
 
 namespace ilf::app {
 
@@ -9,6 +11,15 @@ std::optional<double> wholeNumber(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
     return value;
+}
+
+std::string utcNow() {
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
 }
 
 Result<Look> lookFromWord(std::string_view text) {

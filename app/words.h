@@ -1,4 +1,4 @@
-// The words files and command lines use for looks, eyes and circles of confusion.
+// The words files and command lines use for looks, eyes, circles of confusion and times.
 #pragma once
 
 #include <optional>
@@ -24,6 +24,9 @@ inline const char* word(Look look) {
 
 /// A number that is the whole of `text`, with a decimal point whatever the locale.
 std::optional<double> wholeNumber(std::string_view text);
+
+/// This moment as files say it: "2026-11-22T23:19:27Z".
+std::string utcNow();
 
 Result<Look> lookFromWord(std::string_view text);
 /// 1arcmin, dof, landolt, or a diameter on the retina in metres.

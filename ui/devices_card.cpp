@@ -1,10 +1,9 @@
 #include "ui/devices_card.h"
 
-#include <cstdio>
-
 #include "ui/icons.h"
 #include <utility>
 
+#include "core/base/as_text.h"
 #include "ui/widgets.h"
 
 namespace ilf::ui {
@@ -25,11 +24,7 @@ ImU32 inkOf(DeviceHealth health) {
     return colour::dim;
 }
 
-std::string microseconds(double seconds) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.0f \u00b5s", seconds * 1e6);
-    return text;
-}
+std::string microseconds(double seconds) { return asText("%.0f \u00b5s", seconds * 1e6); }
 
 /// Devices that report nothing of their own have the two lines of every rig.
 std::vector<Device> devicesOf(const CoreStatus& core) {
@@ -132,14 +127,12 @@ std::vector<TimingRow> timingRows(const CoreStatus& core) {
                         t.locked ? microseconds(t.phase.si()) + ", \u00b1" + microseconds(t.jitter.si()) : "not locked",
                         "Farthest of the last two seconds between the sweep and the projector's triggers, and their "
                         "scatter."});
-        char drift[48];
-        std::snprintf(drift, sizeof drift, "%+.1f ppm", t.driftPpm);
+        const std::string drift = asText("%+.1f ppm", t.driftPpm);
         rows.push_back({"Drift", drift, "Of the lenses' clock against the projector's; followed sample by sample."});
         rows.push_back({"Triggers", std::to_string(t.missedTriggers) + " missed", "Since slotted light came on."});
     }
     if (core.lensTemperature_C) {
-        char warm[32];
-        std::snprintf(warm, sizeof warm, "%.1f \u00b0C", *core.lensTemperature_C);
+        const std::string warm = asText("%.1f \u00b0C", *core.lensTemperature_C);
         rows.push_back({"Lens", warm, "Temperature of the lens."});
     }
     return rows;

@@ -1,21 +1,15 @@
 // What the evaluation found, in words.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "app/evaluate/report.h"
+#include "core/base/as_text.h"
 
 namespace ilf::app {
 namespace {
 
-std::string with(const char* format, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
-
 std::string plusMinus(const MeanSpread& value, const char* unit) {
-    return with("%+.2f", value.mean) + " +- " + with("%.2f", value.spread) + unit;
+    return asText("%+.2f", value.mean) + " +- " + asText("%.2f", value.spread) + unit;
 }
 
 std::string blurredOnes(const FourObjects& one) {
@@ -29,7 +23,7 @@ std::string blurredOnes(const FourObjects& one) {
 void aboutSizes(const BlurSizes& sizes, std::vector<Finding>& out) {
     out.push_back(
         {"blur circle, lens held, against the model",
-         "within " + with("%.1f %%", 100.0 * sizes.worstModelShare) + " (middle circle, above 15 px)",
+         "within " + asText("%.1f %%", 100.0 * sizes.worstModelShare) + " (middle circle, above 15 px)",
          "slightly larger than the model, since dots are not points; no figures",
          "Dots of one projector pixel add next to nothing, for Otsu's threshold halves a blurred edge. The mean of "
          "nine "
@@ -41,8 +35,8 @@ void aboutSizes(const BlurSizes& sizes, std::vector<Finding>& out) {
                    "what the paper found cannot come from the 1 ms alone."});
     out.push_back(
         {"swept less fixed radius, the paper's rule on the emulated lens (2485 recorded waves)",
-         plusMinus(sizes.wave, " px") + "; size " + with("%.2f", sizes.waveAbsolute.mean) + " +- " +
-             with("%.2f", sizes.waveAbsolute.spread) + " px",
+         plusMinus(sizes.wave, " px") + "; size " + asText("%.2f", sizes.waveAbsolute.mean) + " +- " +
+             asText("%.2f", sizes.waveAbsolute.spread) + " px",
          "1.4 +- 1.8 px, swept the larger",
          std::abs(sizes.wave.mean) < 0.7
              ? "Smaller than stated. Likely causes: our lens is looked up without a timing error or drift, "
@@ -54,8 +48,8 @@ void aboutSizes(const BlurSizes& sizes, std::vector<Finding>& out) {
 void aboutRange(const BlurRange& range, std::vector<Finding>& out) {
     out.push_back(
         {"far border of a ring reader over 9 distances",
-         "border = " + with("%.3f", range.slope) + " / distance + " + with("%.3f D", range.offset_D) + "; within " +
-             with("%.3f D", range.worstOff_D) + " of 1/distance + constant",
+         "border = " + asText("%.3f", range.slope) + " / distance + " + asText("%.3f D", range.offset_D) + "; within " +
+             asText("%.3f D", range.worstOff_D) + " of 1/distance + constant",
          "\"can be accurately predicted by the model\"; the values are only plotted",
          "The shape 1/distance + K is the model's. K depends on the reader: this one's noise is assumed, and it "
          "lies between the model's 0.07 D for 1 arcmin and the 0.38 D of Landolt rings in the literature."});
@@ -67,8 +61,8 @@ void aboutObjects(const std::vector<FourObjects>& conditions, std::vector<Findin
             std::ranges::all_of(one.objects, [](const ObjectSeen& object) { return object.blurred == object.toBlur; });
         out.push_back(
             {"four objects, " + one.condition,
-             "blurred: " + blurredOnes(one) + " (P_s " + with("%.2f D", one.pS_D) + ", sweep to " +
-                 with("%.2f D", one.high_D) + ")",
+             "blurred: " + blurredOnes(one) + " (P_s " + asText("%.2f D", one.pS_D) + ", sweep to " +
+                 asText("%.2f D", one.high_D) + ")",
              one.condition == "only B blurred" ? "10 of 10 participants: B" : "10 of 10 participants: A, C, D",
              asAsked ? "As in the paper."
                      : "Not as in the paper: an object keeps or loses more than half of its detail."});
@@ -89,13 +83,13 @@ void aboutSeams(const std::vector<SeamCase>& seams, std::vector<Finding>& out) {
     const std::string all = std::to_string(seams.size());
     out.push_back({"seams, the paper's two ramps as printed",
                    "weaker in " + std::to_string(paperBetter) + " of " + all + " cases; worst Weber contrast " +
-                       with("%.2f", paperWorst),
+                       asText("%.2f", paperWorst),
                    "alleviated in all 8 conditions, 10 of 10 participants; no figures",
                    "Both ramps in object coordinates leave most of the seam, since the blurred one is seen magnified: "
                    "the paper must have drawn it where it appears, or its participants judged softness."});
     out.push_back({"seams, closed form",
                    "weaker in " + std::to_string(better) + " of " + all + " cases; worst Weber contrast " +
-                       with("%.2f", worst) + ", on a white sheet " + with("%.2f", sheet),
+                       asText("%.2f", worst) + ", on a white sheet " + asText("%.2f", sheet),
                    "alleviated in all 8 conditions, 10 of 10 participants; no figures",
                    "On a texture the rest is the texture itself, which is blurred and magnified on one side only; on a "
                    "white sheet it is 8 bits of light and the raster."});

@@ -2,22 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "app/plots/draw.h"
+#include "core/base/as_text.h"
 #include "projects/json.h"
 #include "projects/pictures.h"
 #include "projects/safe_file.h"
 
 namespace ilf::app {
 namespace {
-
-std::string with(const char* format, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
 
 std::string row(const std::vector<std::string>& cells) {
     std::string text = "|";
@@ -34,9 +28,9 @@ std::string sizesTable(const BlurSizes& sizes) {
     std::string text =
         heading({"distance [mm]", "power [D]", "model", "fixed, middle", "fixed", "exact sine", "paper's wave"});
     for (const BlurCase& c : sizes.cases) {
-        text += row({with("%.0f", c.distance_mm), with("%.1f", c.power_D), with("%.2f", c.model_px),
-                     with("%.2f", c.middle_px), with("%.2f", c.fixed_px), with("%.2f", c.sine_px),
-                     with("%.2f", c.wave_px)});
+        text += row({asText("%.0f", c.distance_mm), asText("%.1f", c.power_D), asText("%.2f", c.model_px),
+                     asText("%.2f", c.middle_px), asText("%.2f", c.fixed_px), asText("%.2f", c.sine_px),
+                     asText("%.2f", c.wave_px)});
     }
     return text;
 }
@@ -44,9 +38,9 @@ std::string sizesTable(const BlurSizes& sizes) {
 std::string rangeTable(const BlurRange& range) {
     std::string text = heading({"distance [mm]", "1/distance [D]", "0.2 D steps [D]", "bisection [D]"});
     for (const BorderCase& c : range.cases) {
-        text += row({with("%.0f", c.distance_mm), with("%.3f", 1e3 / c.distance_mm),
-                     with("%.2f", c.steps_D.mean) + " +- " + with("%.2f", c.steps_D.spread),
-                     with("%.3f", c.border_D.mean) + " +- " + with("%.3f", c.border_D.spread)});
+        text += row({asText("%.0f", c.distance_mm), asText("%.3f", 1e3 / c.distance_mm),
+                     asText("%.2f", c.steps_D.mean) + " +- " + asText("%.2f", c.steps_D.spread),
+                     asText("%.3f", c.border_D.mean) + " +- " + asText("%.3f", c.border_D.spread)});
     }
     return text;
 }
@@ -55,8 +49,9 @@ std::string objectsTable(const std::vector<FourObjects>& conditions) {
     std::string text = heading({"condition", "object", "distance [mm]", "asked", "detail left", "seen"});
     for (const FourObjects& one : conditions) {
         for (const ObjectSeen& object : one.objects) {
-            text += row({one.condition, object.name, with("%.0f", object.distance_mm), object.toBlur ? "blur" : "focus",
-                         with("%.0f %%", 100.0 * object.detail), object.blurred ? "blurred" : "sharp"});
+            text +=
+                row({one.condition, object.name, asText("%.0f", object.distance_mm), object.toBlur ? "blur" : "focus",
+                     asText("%.0f %%", 100.0 * object.detail), object.blurred ? "blurred" : "sharp"});
         }
     }
     return text;
@@ -65,8 +60,8 @@ std::string objectsTable(const std::vector<FourObjects>& conditions) {
 std::string seamsTable(const std::vector<SeamCase>& seams) {
     std::string text = heading({"texture", "blurred side", "power [D]", "hard masks", "paper's ramps", "closed form"});
     for (const SeamCase& one : seams) {
-        text += row({one.texture, one.blurredInside ? "inner (overlap)" : "outer (gap)", with("%.0f", one.power_D),
-                     with("%+.2f", one.before), with("%+.2f", one.paper), with("%+.2f", one.after)});
+        text += row({one.texture, one.blurredInside ? "inner (overlap)" : "outer (gap)", asText("%.0f", one.power_D),
+                     asText("%+.2f", one.before), asText("%+.2f", one.paper), asText("%+.2f", one.after)});
     }
     return text;
 }
@@ -148,10 +143,10 @@ Chart blurDifferenceChart(const BlurSizes& sizes) {
     chart.curves.push_back({"paper's mean", Mark::dashed, 6, {{0.0, 1.4}, {5.5, 1.4}}});
     int colour = 0;
     for (auto& [distance, curve] : wave) {
-        curve.label = with("%.0f mm, wave", distance);
+        curve.label = asText("%.0f mm, wave", distance);
         curve.mark = Mark::dots;
         Curve& other = sine[distance];
-        other.label = with("%.0f mm, sine", distance);
+        other.label = asText("%.0f mm, sine", distance);
         other.mark = Mark::rings;
         curve.colour = other.colour = colour++;
         chart.curves.push_back(curve);

@@ -8,17 +8,12 @@
 #include "app/exit_code.h"
 #include "app/headless/prepare.h"
 #include "app/lens/calibration_of.h"
+#include "core/base/as_text.h"
 #include "ilf/version.h"
 #include "projects/wave_csv.h"
 
 namespace ilf::app {
 namespace {
-
-std::string decimal(const char* format, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
 
 Result<devices::LensPreset> presetNamed(const std::string& name) {
     if (const auto preset = devices::lensPresetFromWord(name)) return *preset;
@@ -67,7 +62,7 @@ Result<void> record(const LensRecordOptions& options) {
     waves.records = *std::move(records);
     if (auto saved = projects::saveWaves(options.out, waves); !saved) return saved;
     std::cout << options.out << ": " << waves.records.size() << " waves of the " << waves.lens.name() << " at "
-              << options.rate_Hz << " Hz, recorded in " << decimal("%.1f", seconds) << " s. Simulated, not measured.\n";
+              << options.rate_Hz << " Hz, recorded in " << asText("%.1f", seconds) << " s. Simulated, not measured.\n";
     return {};
 }
 
@@ -117,10 +112,10 @@ void print(const ShapedWave& wave, const LensBench& bench, const LensShapeOption
               << " Hz; simulated, not measured.\n"
               << "Largest error inside the holds, play by play (D):";
     for (const double error : wave.errors_D)
-        std::cout << ' ' << decimal("%.4f", error);
-    std::cout << "\nKept: " << decimal("%.4f", wave.largestError_D) << " D over " << wave.holds.size() << " holds of "
-              << decimal("%.1f", 100.0 * options.duty) << " % of the sweep; drive " << decimal("%.4f", peak) << ' '
-              << word(wave.unit) << " peak, " << decimal("%.4f", wave.drive.rms()) << " rms.\n";
+        std::cout << ' ' << asText("%.4f", error);
+    std::cout << "\nKept: " << asText("%.4f", wave.largestError_D) << " D over " << wave.holds.size() << " holds of "
+              << asText("%.1f", 100.0 * options.duty) << " % of the sweep; drive " << asText("%.4f", peak) << ' '
+              << word(wave.unit) << " peak, " << asText("%.4f", wave.drive.rms()) << " rms.\n";
 }
 
 Result<void> shape(const LensShapeOptions& options) {

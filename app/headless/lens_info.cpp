@@ -9,6 +9,7 @@
 #include "app/headless/lens_command.h"
 #include "app/headless/prepare.h"
 #include "app/lens/calibration_of.h"
+#include "core/base/as_text.h"
 #include "core/lens/sine_record.h"
 
 namespace ilf::app {
@@ -105,13 +106,8 @@ Json infoOf(const std::string& file, const projects::WaveFile& waves, const Lens
     return out;
 }
 
-std::string decimal(const char* format, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
 std::string span(const Json& range, const char* format) {
-    return decimal(format, range[0]) + " to " + decimal(format, range[1]);
+    return asText(format, range[0]) + " to " + asText(format, range[1]);
 }
 
 void print(const Json& info) {
@@ -121,13 +117,13 @@ void print(const Json& info) {
         std::cout << ", " << word.get<std::string>();
     std::cout << "\n  eye " << info["eye"].get<std::string>() << ", recorded "
               << info["recorded_utc"].get<std::string>() << " (" << info["method"].get<std::string>()
-              << ")\n  temperature " << decimal("%.1f", info["temperature_C"]["at_rest"]) << " degrees C at rest, "
+              << ")\n  temperature " << asText("%.1f", info["temperature_C"]["at_rest"]) << " degrees C at rest, "
               << span(info["temperature_C"]["while_played"], "%.1f") << " while played\n  limits "
-              << decimal("%.4g", info["limits"]["drive_peak"]) << ' ' << unit << " peak, "
-              << decimal("%.4g", info["limits"]["drive_rms"]) << ' ' << unit << " rms, "
+              << asText("%.4g", info["limits"]["drive_peak"]) << ' ' << unit << " peak, "
+              << asText("%.4g", info["limits"]["drive_rms"]) << ' ' << unit << " rms, "
               << span(info["limits"]["power_D"], "%g") << " D\n";
     for (const Json& rate : info["rates"]) {
-        std::cout << "  " << decimal("%g", rate["rate_Hz"]) << " Hz:";
+        std::cout << "  " << asText("%g", rate["rate_Hz"]) << " Hz:";
         for (const auto& [family, count] : rate["waves"].items())
             std::cout << ' ' << count << ' ' << family;
         std::cout << ", powers " << span(rate["power_D"], "%.2f") << " D, drives " << span(rate["drive"], "%.4f") << ' '
@@ -137,16 +133,16 @@ void print(const Json& info) {
             std::cout << "\n    no continuous model: too few or too similar waves\n";
         } else {
             std::cout << "\n    continuous model of degree " << rate["model"]["degree"] << ": "
-                      << decimal("%.4f", rate["model"]["rms_fit_D"]) << " D rms, "
-                      << decimal("%.4f", rate["model"]["largest_fit_D"]) << " D largest, noise included\n";
+                      << asText("%.4f", rate["model"]["rms_fit_D"]) << " D rms, "
+                      << asText("%.4f", rate["model"]["largest_fit_D"]) << " D largest, noise included\n";
         }
     }
     for (const Json& wave : info["shaped"]) {
-        std::cout << "  shaped wave " << wave["id"] << ", " << decimal("%g", wave["rate_Hz"]) << " Hz, holds";
+        std::cout << "  shaped wave " << wave["id"] << ", " << asText("%g", wave["rate_Hz"]) << " Hz, holds";
         for (const Json& hold : wave["holds"])
-            std::cout << ' ' << decimal("%g", hold["power_D"]) << " D ("
-                      << decimal("%.0f", 100.0 * hold["length"].get<double>()) << " %)";
-        std::cout << " within " << decimal("%.3f", wave["largest_error_D"]) << " D\n";
+            std::cout << ' ' << asText("%g", hold["power_D"]) << " D ("
+                      << asText("%.0f", 100.0 * hold["length"].get<double>()) << " %)";
+        std::cout << " within " << asText("%.3f", wave["largest_error_D"]) << " D\n";
     }
 }
 
@@ -212,11 +208,11 @@ int lensChooseCommand(const LensChooseOptions& options) {
     const Extremes power = extremes(choice.wave->power), drive = extremes(choice.wave->drive);
     std::cout << (choice.wave->wave != 0 ? "Wave " + std::to_string(choice.wave->wave)
                                          : std::string("A wave between the records"))
-              << " (" << options.mode << ", " << word(choice.wave->provenance) << "): " << decimal("%.3f", power.low)
-              << " to " << decimal("%.3f", power.high) << " D for " << decimal("%g", options.low_D) << " to "
-              << decimal("%g", options.high_D) << " D asked, driven from " << decimal("%.5f", drive.low) << " to "
-              << decimal("%.5f", drive.high) << ' ' << word(choice.wave->unit) << "; up to "
-              << decimal("%.2f", choice.reachable.si()) << " D can be reached\n";
+              << " (" << options.mode << ", " << word(choice.wave->provenance) << "): " << asText("%.3f", power.low)
+              << " to " << asText("%.3f", power.high) << " D for " << asText("%g", options.low_D) << " to "
+              << asText("%g", options.high_D) << " D asked, driven from " << asText("%.5f", drive.low) << " to "
+              << asText("%.5f", drive.high) << ' ' << word(choice.wave->unit) << "; up to "
+              << asText("%.2f", choice.reachable.si()) << " D can be reached\n";
     return kDone;
 }
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -18,6 +17,7 @@
 #include "app/headless/prepare.h"
 #include "app/lens/lens_planner.h"
 #include "app/output_core/usb_place.h"
+#include "app/words.h"
 #include "core/lens/shaped_wave.h"
 #include "devices/dlpc350/lightcrafter.h"
 #include "devices/emulated_bench/emulated_bench.h"
@@ -56,15 +56,6 @@ private:
     static constexpr int kSignals[] = {SIGINT, SIGTERM};
     void (*before_[2])(int) = {};
 };
-
-std::string utcNow() {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text;
-}
 
 /// Lines of milliamperes and dioptres; those that do not begin with a number are headings or remarks.
 Result<std::vector<StaticPower>> knownPowers(const std::string& file) {

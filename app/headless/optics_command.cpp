@@ -14,6 +14,7 @@
 #include "app/headless/prepare.h"
 #include "app/plots/draw.h"
 #include "app/plots/optics_charts.h"
+#include "core/base/as_text.h"
 #include "core/optics/kernel.h"
 
 namespace ilf::app {
@@ -201,12 +202,6 @@ std::optional<Table> table(const std::string& name) {
     return out;
 }
 
-std::string decimal(const char* format, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
-
 void print(const Table& table, const OpticsTableOptions& options) {
     if (options.json) {
         std::cout << "[";
@@ -215,7 +210,7 @@ void print(const Table& table, const OpticsTableOptions& options) {
             for (std::size_t k = 0; k < table.names.size(); ++k) {
                 const double value = table.rows[i][k];
                 std::cout << (k == 0 ? "\"" : ", \"") << table.names[k]
-                          << "\": " << (std::isfinite(value) ? decimal("%.17g", value) : "null");
+                          << "\": " << (std::isfinite(value) ? asText("%.17g", value) : "null");
             }
             std::cout << "}";
         }
@@ -233,7 +228,7 @@ void print(const Table& table, const OpticsTableOptions& options) {
     };
     line(table.names, padded);
     for (const auto& row : table.rows)
-        line(row, [&](double value) { return padded(decimal(options.csv ? "%.17g" : "%.10g", value)); });
+        line(row, [&](double value) { return padded(asText(options.csv ? "%.17g" : "%.10g", value)); });
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "app/headless/run_report.h"
 
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "app/headless/plan_command.h"
+#include "core/base/as_text.h"
 #include "ilf/version.h"
 
 namespace ilf::app {
@@ -60,12 +60,6 @@ json lensOf(const LensDeviation& lens, double temperature_C, double most_mA) {
             {"greatest_current_mA", most_mA}};
 }
 
-std::string rounded(double value, const char* format) {
-    char text[32];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
-
 const char* kProvenance = "drivers of real devices over emulated cables; never on hardware";
 
 }  // namespace
@@ -90,9 +84,9 @@ bool asIntended(const Outcome& outcome) {
 std::string verdict(const Outcome& outcome) {
     std::string line = "Emulated rig: " + devices::verdict(outcome.light) + "; slots of " +
                        std::to_string(outcome.quantisation.bits) + (outcome.quantisation.bits == 1 ? " bit" : " bits") +
-                       " leave " + rounded(100.0 * outcome.quantisation.mean, "%.2f") + " % mean error; lenses " +
-                       rounded(1e3 * outcome.lenses[0].rms.si(), "%.0f") + " and " +
-                       rounded(1e3 * outcome.lenses[1].rms.si(), "%.0f") + " mD rms off their wave";
+                       " leave " + asText("%.2f", 100.0 * outcome.quantisation.mean) + " % mean error; lenses " +
+                       asText("%.0f", 1e3 * outcome.lenses[0].rms.si()) + " and " +
+                       asText("%.0f", 1e3 * outcome.lenses[1].rms.si()) + " mD rms off their wave";
     if (outcome.sweep.received.harmed) line += "; SOMETHING WAS SENT THAT WOULD HURT A PROJECTOR";
     if (outcome.sweep.received.ledCurrentWrites > 0)
         line += "; LED CURRENTS WERE WRITTEN " + std::to_string(outcome.sweep.received.ledCurrentWrites) + " TIMES";
@@ -102,9 +96,9 @@ std::string verdict(const Outcome& outcome) {
 std::string inWords(const Ended& ended) {
     const std::string light =
         ended.steadyWhite ? "The light is steady white"
-                          : "The light is not steady white (" + rounded(100.0 * ended.light, "%.1f") + " % of it)";
+                          : "The light is not steady white (" + asText("%.1f", 100.0 * ended.light) + " % of it)";
     if (ended.atRest) return light + " and the lenses rest.";
-    return light + " and the lenses do not rest (up to " + rounded(ended.farthest.si(), "%.2f") + " D away).";
+    return light + " and the lenses do not rest (up to " + asText("%.2f", ended.farthest.si()) + " D away).";
 }
 
 json runReport(const Prepared& project, const std::string& file, double seconds, const Played& played) {

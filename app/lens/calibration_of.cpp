@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "app/lens/record_lens.h"
+#include "app/words.h"
 #include "core/lens/sine_record.h"
 #include "ilf/version.h"
 #include "projects/xdg.h"
@@ -114,15 +114,6 @@ LensBench quickBench(devices::LensPreset preset) {
     bench.options.settle = kQuickSettle;
     bench.options.periods = kQuickPeriods;
     return bench;
-}
-
-std::string utcNow() {
-    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text;
 }
 
 }  // namespace

@@ -1,24 +1,13 @@
 #include "app/output_core/rest_current.h"
 
-#include <array>
-#include <cstdio>
+#include "core/plan/words.h"
 
 namespace ilf::app {
-namespace {
-
-std::string spoken(Dioptre power) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.2f D", power.si());
-    return text.data();
-}
-
-}  // namespace
-
 Result<Ampere> restCurrent(const LensWiring& wiring, Dioptre rest, const std::string& lens) {
     const auto& points = wiring.powers;
     if (points.empty()) {
         if (rest == 0.0_D) return Ampere();
-        return fail(Fault::device, "The " + lens + " should rest at " + spoken(rest) +
+        return fail(Fault::device, "The " + lens + " should rest at " + inWords(rest) +
                                        ", and the rig does not say what current gives that: measure its static powers "
                                        "and put them into the rig's file.");
     }
@@ -27,9 +16,9 @@ Result<Ampere> restCurrent(const LensWiring& wiring, Dioptre rest, const std::st
         const double share = (rest - a.power) / (b.power - a.power);
         if (share >= 0.0 && share <= 1.0) return a.current + share * (b.current - a.current);
     }
-    return fail(Fault::device, "The " + lens + " should rest at " + spoken(rest) +
-                                   ", which is beyond its static calibration of " + spoken(points.front().power) +
-                                   " to " + spoken(points.back().power) + ": measure farther, or let it rest there.");
+    return fail(Fault::device, "The " + lens + " should rest at " + inWords(rest) +
+                                   ", which is beyond its static calibration of " + inWords(points.front().power) +
+                                   " to " + inWords(points.back().power) + ": measure farther, or let it rest there.");
 }
 
 }  // namespace ilf::app

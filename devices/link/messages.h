@@ -212,7 +212,8 @@ struct ExposedLight {
 };
 /// Lets something go wrong, by the words of devices/emulators/fault.h: device "projector" or "lenses"; kind "nack",
 /// "silence", "stall", "unplug", "wrong-mode", "underrun", "over-temperature", "dropped-trigger", "clock-drift",
-/// "stuck-frame"; "plug" puts the cable back in, "none" ends all of this device; for device "display" "unplug", "plug".
+/// "stuck-frame"; "plug" puts the cable back, "none" ends all; "power-cycle" (projector); of "display" "unplug",
+/// "plug".
 struct RigMishap {
     std::string device, kind;
     std::uint64_t after = 0, times = 0;  ///< times 0: from then on for ever

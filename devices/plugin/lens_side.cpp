@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "core/base/as_text.h"
 #include "core/plan/words.h"
 #include "devices/simulated/simulated_stage.h"  // the budgets, which are the same
 
@@ -21,12 +21,6 @@ constexpr std::chrono::nanoseconds kLongestLocking = 5s;
 constexpr std::chrono::nanoseconds kPhaseMemory = 2100ms;
 
 std::chrono::nanoseconds inNs(Second time) { return std::chrono::nanoseconds(std::llround(time.si() * 1e9)); }
-
-std::string number(const char* format, double value) {
-    std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), format, value);
-    return text.data();
-}
 
 }  // namespace
 
@@ -106,7 +100,7 @@ Result<void> LensSide::well(bool triggersCome) {
         return known_.wrong({Fault::device, "The lens's sweep has lost the projector's triggers; check the trigger "
                                             "cable, then TAKE."});
     if (clock_.now() - lockedSince_ < kPhaseMemory || phase->most <= kPhaseBudget) return {};
-    return known_.wrong({Fault::device, "Slots and lens were " + number("%.2f ms", phase->most.in(1.0_ms)) +
+    return known_.wrong({Fault::device, "Slots and lens were " + asText("%.2f ms", phase->most.in(1.0_ms)) +
                                             " apart; check the trigger cable, then TAKE."});
 }
 
@@ -115,7 +109,7 @@ Result<void> LensSide::atItsTemperature() {
     const double planned_C =
         std::clamp(*temperature_C_, told_->temperature_C, told_->temperature_C + std::max(0.0, told_->warming_C));
     if (std::abs(*temperature_C_ - planned_C) <= kTemperatureBudget_C) return {};
-    return known_.wrong({Fault::device, "The lens is at " + number("%.1f C", *temperature_C_) +
+    return known_.wrong({Fault::device, "The lens is at " + asText("%.1f C", *temperature_C_) +
                                             ", too far from what its wave was planned for; let it come back, or plan "
                                             "again at this temperature."});
 }
@@ -147,7 +141,7 @@ void LensSide::wait(std::chrono::nanoseconds time) {
 
 std::string LensSide::phaseWords() const {
     if (!phase_) return "";
-    return number("; phase within %.0f us", phase_->most.in(1.0_us)) + number(", %+.0f ppm", phase_->driftPpm);
+    return asText("; phase within %.0f us", phase_->most.in(1.0_us)) + asText(", %+.0f ppm", phase_->driftPpm);
 }
 
 void LensSide::report(StageReport& into, bool slotted) const {
@@ -168,10 +162,10 @@ void LensSide::report(StageReport& into, bool slotted) const {
         into.lensLine = resting_ ? "lenses: at rest after a fault, to be opened again"
                                  : "lenses: no answer; where they are is not known";
     else if (!told_)
-        into.lensLine = known_.name() + number(": at rest at %.2f D", rest_.si());
+        into.lensLine = known_.name() + asText(": at rest at %.2f D", rest_.si());
     else
-        into.lensLine = known_.name() + number(": told %.2f", told_->low.si()) +
-                        number(" to %.2f D", told_->high.si()) + phaseWords() +
+        into.lensLine = known_.name() + asText(": told %.2f", told_->low.si()) +
+                        asText(" to %.2f D", told_->high.si()) + phaseWords() +
                         (temperature_C_ ? "" : "; its temperature is not known");
 }
 

@@ -1,21 +1,13 @@
 // What the stage says of its devices: status lines, and a line for each on the device panel.
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "core/base/as_text.h"
 #include "core/plan/words.h"
 #include "devices/rig/lightcrafter_stage.h"
 
 namespace ilf::devices {
-namespace {
-
-std::string number(const char* format, double value) {
-    std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), format, value);
-    return text.data();
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void LightCrafterStage::Known::answered(const std::string& called) {
     ever = true;
@@ -80,21 +72,21 @@ std::string LightCrafterStage::projectorLine() const {
         return board + ": its display " + rig_.video->display().connector + " is gone; its light is not known";
     if (light_ == Light::slotted)
         return board + ": " + std::to_string(running_ ? running_->entries.size() : 0) + " slots at " +
-               number("%.2f Hz", mode_.refresh.si());
+               asText("%.2f Hz", mode_.refresh.si());
     return board + (light_ == Light::white ? ": steady white" : ": its light is not known");
 }
 
 std::string LightCrafterStage::phaseWords() const {
     if (!phase_) return "";
-    return number("; phase within %.0f us", phase_->most.in(1.0_us)) + number(", %+.0f ppm", phase_->driftPpm);
+    return asText("; phase within %.0f us", phase_->most.in(1.0_us)) + asText(", %+.0f ppm", phase_->driftPpm);
 }
 
 std::string LightCrafterStage::lensLine() const {
     if (!lens_)
         return resting_ ? "lenses: at rest after a fault, to be opened again"
                         : "lenses: no answer; where they are is not known";
-    if (!told_) return lens_->name() + number(": at rest at %.2f D", rest_.si());
-    return lens_->name() + number(": told %.2f", told_->low.si()) + number(" to %.2f D", told_->high.si()) +
+    if (!told_) return lens_->name() + asText(": at rest at %.2f D", rest_.si());
+    return lens_->name() + asText(": told %.2f", told_->low.si()) + asText(" to %.2f D", told_->high.si()) +
            phaseWords() + (temperature_C_ ? "" : "; its temperature is not known");
 }
 
