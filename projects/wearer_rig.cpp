@@ -157,7 +157,8 @@ Json written(const Rig& rig, Json json) {
         json.erase("primaries_nm");
     }
     if (rig.registration) {
-        json.set("projector_from_camera", std::vector<double>(rig.registration->m.begin(), rig.registration->m.end()));
+        const auto& m = rig.registration->map.nearest().m;
+        json.set("projector_from_camera", std::vector<double>(m.begin(), m.end()));
     } else {
         json.erase("projector_from_camera");
     }
@@ -207,8 +208,9 @@ Result<Rig> rigFrom(const Json& json, const std::string& file) {
     }
     if (reader.has("projector_from_camera")) {
         const std::vector<double> m = reader.numbers("projector_from_camera", 9);
-        rig.registration.emplace();
-        std::copy(m.begin(), m.end(), rig.registration->m.begin());
+        Homography<ProjectorFrame, CameraFrame> plane;
+        std::copy(m.begin(), m.end(), plane.m.begin());
+        rig.registration = registered(plane);
     }
     if (reader.has("devices")) rig.devices = rigDevicesFrom(reader.object("devices"));
     rig.provenance = reader.word("provenance");

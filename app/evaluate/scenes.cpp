@@ -104,7 +104,7 @@ Document scene(Picture picture, double focalPixels, std::vector<Region> regions,
     behind.distance = ConstantDistance{backgroundDistance, {}};
     document.background = Box<Region>(behind);
     document.rig.projector = size;
-    document.rig.registration = Homography<ProjectorFrame, CameraFrame>{};
+    document.rig.registration = registered(Homography<ProjectorFrame, CameraFrame>{});
     return document;
 }
 

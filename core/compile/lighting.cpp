@@ -43,7 +43,7 @@ Sheet sheetFor(const Region& region, const Plan& plan, int base) {
 }
 
 /// The maps between picture and raster, and how large a picture pixel lands on the raster.
-struct Registration {
+struct RasterMaps {
     Homography<ProjectorFrame, CameraFrame> projectorFromCamera;
     Homography<CameraFrame, ProjectorFrame> cameraFromProjector;
 
@@ -59,7 +59,7 @@ struct Registration {
 /// What magnification and blur do to one sheet's light in one level.
 struct Sight {
     const Document& document;
-    const Registration& registration;
+    const RasterMaps& registration;
     EyeOptics eye;
     Dioptre rest, lit;
 
@@ -91,7 +91,7 @@ struct Sight {
 float length(Shift shift) { return std::hypot(shift.x, shift.y); }
 
 /// Marks the pairs of sheets that may lie farther apart than a depth step. A depth map may step anywhere.
-std::vector<bool> possibleSteps(const Document& document, const Registration& registration, const Lighting& light) {
+std::vector<bool> possibleSteps(const Document& document, const RasterMaps& registration, const Lighting& light) {
     struct Range {
         double low = kMostVergence, high = kLeastVergence;
         bool any = false;
@@ -190,7 +190,7 @@ Lighting lighting(const Document& document, const Plan& plan) {
     }
 
     const Homography<ProjectorFrame, CameraFrame> map = projectorFromCamera(document);
-    const Registration registration{map, map.inverted()};
+    const RasterMaps registration{map, map.inverted()};
     const EyeOptics eye = eyeOptics(document.wearer);
     const Dioptre rest = plan.levels[static_cast<std::size_t>(light.base)].power;
     for (int sheet = 0; sheet < static_cast<int>(light.sheets.size()); ++sheet) {

@@ -235,10 +235,10 @@ Result<void> checked(const Rig& rig) {
     if (rig.registration) {
         double size = 1.0;  // of the three rows: what the determinant of a well-conditioned map is compared with
         for (std::size_t row = 0; row < 3; ++row) {
-            const double* m = &rig.registration->m[3 * row];
+            const double* m = &rig.registration->map.nearest().m[3 * row];
             size *= std::hypot(m[0], m[1], m[2]);
         }
-        if (!std::isfinite(size) || !(std::abs(rig.registration->determinant()) > 1e-12 * size)) {
+        if (!std::isfinite(size) || !(std::abs(rig.registration->map.nearest().determinant()) > 1e-12 * size)) {
             return fail(Fault::outOfRange, "The registration of camera and projector folds the picture onto a line, so "
                                            "that there is no way back: register again.");
         }

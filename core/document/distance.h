@@ -49,6 +49,7 @@ using Distance = std::variant<ConstantDistance, PlaneDistance, FromDepthMap>;
 struct DepthMap {
     Image<std::uint16_t> raw;
     Metre metresPerUnit = 1.0_mm;
+    Image<std::uint16_t> sigma;  ///< one standard deviation in the same units; may be empty: not known
     bool operator==(const DepthMap&) const = default;
 };
 

@@ -47,7 +47,11 @@ std::vector<const Region*> activeRegions(const Document& document) {
 }
 
 Homography<ProjectorFrame, CameraFrame> projectorFromCamera(const Document& document) {
-    if (document.rig.registration) return *document.rig.registration;
+    return pixelMap(document).nearest();
+}
+
+PixelMap pixelMap(const Document& document) {
+    if (document.rig.registration) return document.rig.registration->map;
     const Size camera = document.scene.size();
     const Size projector = document.rig.projector;
     if (camera.width <= 0 || camera.height <= 0) return {};
@@ -55,7 +59,7 @@ Homography<ProjectorFrame, CameraFrame> projectorFromCamera(const Document& docu
                                   static_cast<double>(projector.height) / camera.height);
     const double left = 0.5 * (projector.width - scale * camera.width);
     const double top = 0.5 * (projector.height - scale * camera.height);
-    return {{scale, 0, left, 0, scale, top, 0, 0, 1}};
+    return PixelMap(Homography<ProjectorFrame, CameraFrame>{{scale, 0, left, 0, scale, top, 0, 0, 1}});
 }
 
 Point<CameraFrame> cameraAxis(const Document& document) {

@@ -10,7 +10,9 @@
 #include "core/base/result.h"
 #include "core/base/tile_grid.h"
 #include "core/document/distance.h"
+#include "core/document/follow.h"
 #include "core/document/rig.h"
+#include "core/document/viewer_pose.h"
 #include "core/document/wearer.h"
 
 namespace ilf {
@@ -43,6 +45,7 @@ struct Region {
     Distance distance;
     Mask mask;  ///< camera frame, the picture's size; the background's mask is empty and stands for everything
     std::optional<Outline> outline;
+    std::optional<Follow> follow;  ///< absent: stays where it was painted
     bool visible = true;
     bool locked = false;
     bool solo = false;
@@ -68,7 +71,10 @@ struct Scene {
     Box<Picture> picture;  ///< the frozen frame; its size is the size of every mask
     std::string source;    ///< file name, or the camera's stable id; for the operator
     PixelScale scale;
-    Box<DepthMap> depth;  ///< may be empty
+    Box<DepthMap> depth;  ///< distances from the wearer's lens; may be empty
+    Box<MeasuredDepth>
+        measured;  ///< what `depth` was made from, seen from the camera; may be empty: depth came as it is
+    ViewerPose viewer;
     bool operator==(const Scene&) const = default;
 
     Size size() const { return picture ? picture->size() : Size{}; }
@@ -113,6 +119,8 @@ std::vector<const Region*> activeRegions(const Document& document);
 
 /// Where a camera pixel lands on the projector: the rig's registration, or the whole picture fitted into the raster,
 /// centred, with equal scale in x and y.
+PixelMap pixelMap(const Document& document);
+/// The same for what can only use one homography: the registration's nearest one.
 Homography<ProjectorFrame, CameraFrame> projectorFromCamera(const Document& document);
 
 /// The camera's axis in the picture (its centre, until a calibration says otherwise).

@@ -260,7 +260,7 @@ Result<Document> edited(Document document, const Edit& edit) {
             if (!isFinite(e.metresPerUnit) || e.metresPerUnit < 1.0_um || e.metresPerUnit > 1.0_m) {
                 return fail(Fault::outOfRange, "A step of the depth map must be 1 \u00b5m to 1 m.");
             }
-            document.scene.depth = Box(DepthMap{document.scene.depth->raw, e.metresPerUnit});
+            document.scene.depth = Box(DepthMap{document.scene.depth->raw, e.metresPerUnit, document.scene.depth->sigma});
             return std::move(document);
         },
         [&](const SetPixelScale& e) -> Result<Document> {

@@ -10,6 +10,8 @@
 #include "core/base/quantity.h"
 #include "core/document/rig_devices.h"
 #include "core/lens/waveform.h"
+#include "core/registration/pinhole.h"
+#include "core/registration/registration.h"
 
 namespace ilf {
 
@@ -48,7 +50,8 @@ struct Rig {
     Dioptre lensMin = -10.0_D;
     Dioptre lensMax = 10.0_D;
     /// Where a camera pixel lands on the projector's raster; absent: the picture fitted into the raster.
-    std::optional<Homography<ProjectorFrame, CameraFrame>> registration;
+    Box<Registration> registration;
+    Box<ProcamCalibration> calibration;    ///< camera and projector as pinholes; empty: not known
     std::optional<RigDevices> devices;     ///< absent: simulated ones
     std::string provenance = "simulated";  ///< simulated, measured: never measured unless it was
     bool operator==(const Rig&) const = default;

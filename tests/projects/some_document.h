@@ -70,7 +70,8 @@ inline Document fullDocument(Size size = {96, 70}) {
     document.wearer.measuredAccommodation = 0.5_D;
     document.wearer.confusion = {CircleOfConfusion::Preset::typed, 21.0_um};
     document.wearer.camera = CameraObserver{};
-    document.rig.registration = Homography<ProjectorFrame, CameraFrame>{{1.1, 0.01, 3, -0.02, 0.9, 4, 1e-5, 2e-5, 1}};
+    document.rig.registration =
+        registered(Homography<ProjectorFrame, CameraFrame>{{1.1, 0.01, 3, -0.02, 0.9, 4, 1e-5, 2e-5, 1}});
     return document;
 }
 

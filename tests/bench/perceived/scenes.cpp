@@ -31,7 +31,7 @@ Document blank(int width, double field, double wall_m, Look wall) {
     background.distance = ConstantDistance{Metre::fromSi(wall_m), {}};
     document.background = Box<Region>(background);
     document.rig.projector = size;
-    document.rig.registration = Homography<ProjectorFrame, CameraFrame>{};
+    document.rig.registration = registered(Homography<ProjectorFrame, CameraFrame>{});
     document.rig.waves = WaveMode::idealSine;
     return document;
 }

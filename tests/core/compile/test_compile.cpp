@@ -13,7 +13,7 @@ constexpr Size kPicture{640, 420};
 Document desk(Size projector, std::optional<Homography<ProjectorFrame, CameraFrame>> registration) {
     Document document = flatDocument(kPicture, Look::focus, 0.5_m);
     document.rig.projector = projector;
-    document.rig.registration = registration;
+    if (registration) document.rig.registration = registered(*registration);
     document.regions = {
         regionOf("clutter", Look::blur, 0.5_m, rasterised(Ellipse{{300, 100}, {520, 300}}, kPicture)),
         regionOf("label", Look::neutral, 0.52_m, rasterised(Rectangle{{60, 60}, {330, 180}}, kPicture)),
@@ -157,9 +157,9 @@ TEST_CASE("compile: a soft brush shares light by coverage") {
 TEST_CASE("compile: what cannot be compiled is refused in words") {
     Document document = desk({640, 420}, std::nullopt);
     const Plan plan = planned(document);
-    document.rig.registration = Homography<ProjectorFrame, CameraFrame>{{1, 1, 0, 1, 1, 0, 0, 0, 1}};
+    document.rig.registration = registered(Homography<ProjectorFrame, CameraFrame>{{1, 1, 0, 1, 1, 0, 0, 0, 1}});
     CHECK(compile(document, plan).error().what.find("registration") != std::string::npos);
-    document.rig.registration.reset();
+    document.rig.registration = {};
     document.rig.projector = {0, 0};
     CHECK(compile(document, plan).error().fault == Fault::outOfRange);
 }

@@ -84,11 +84,11 @@ TEST_CASE("rig: raster, delay, lens and registration have their ranges") {
         "The registration of camera and projector folds the picture onto a line, so that there is "
         "no way back: register again.";
     using Map = Homography<ProjectorFrame, CameraFrame>;
-    CHECK(rig([](Rig& r) { r.registration = Map{{1, 2, 0, 2, 4, 0, 0, 0, 1}}; }) == folds);
+    CHECK(rig([](Rig& r) { r.registration = registered(Map{{1, 2, 0, 2, 4, 0, 0, 0, 1}}); }) == folds);
     CHECK(rig([](Rig& r) {
-              r.registration = Map{{1, 0, std::numeric_limits<double>::quiet_NaN(), 0, 1, 0, 0, 0, 1}};
+              r.registration = registered(Map{{1, 0, std::numeric_limits<double>::quiet_NaN(), 0, 1, 0, 0, 0, 1}});
           }) == folds);
-    CHECK(rig([](Rig& r) { r.registration = Map{{0.5, 0, 4000, 0, 0.5, -3000, 0, 0, 1}}; }).empty());
+    CHECK(rig([](Rig& r) { r.registration = registered(Map{{0.5, 0, 4000, 0, 0.5, -3000, 0, 0, 1}}); }).empty());
 }
 
 TEST_CASE("wearer and rig: a lens that focuses before the pupil is refused, whichever is set last") {

@@ -65,7 +65,7 @@ TEST_CASE("document: without a registration the picture is fitted into the raste
     const auto fitted = projectorFromCamera(document);
     CHECK(fitted({0.0, 0.0}) == Point<ProjectorFrame>{0.0, 64.0});
     CHECK(fitted({320.0, 200.0}) == Point<ProjectorFrame>{1024.0, 704.0});
-    document.rig.registration = Homography<ProjectorFrame, CameraFrame>{{2, 0, 1, 0, 2, 3, 0, 0, 1}};
+    document.rig.registration = registered(Homography<ProjectorFrame, CameraFrame>{{2, 0, 1, 0, 2, 3, 0, 0, 1}});
     CHECK(projectorFromCamera(document)({1.0, 1.0}) == Point<ProjectorFrame>{3.0, 5.0});
 }
 

@@ -72,7 +72,7 @@ inline Document document(std::vector<Region> regions, Look background, double ba
     behind.distance = ConstantDistance{Metre::fromSi(backgroundMetres), {}};
     made.background = Box<Region>(behind);
     made.rig.projector = size;
-    made.rig.registration = Homography<ProjectorFrame, CameraFrame>{};
+    made.rig.registration = registered(Homography<ProjectorFrame, CameraFrame>{});
     return made;
 }
 
