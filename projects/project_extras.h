@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "projects/json.h"
+#include "projects/project_depth.h"
 #include "projects/project_file.h"
 
 namespace ilf::projects {
@@ -21,16 +22,11 @@ struct ProjectExtras::State {
         Mask mask;
         Box<std::string> bytes;
     };
-    struct EncodedDepth {
-        Image<std::uint16_t> raw;
-        Box<std::string> bytes;
-    };
-
     Json project, wearer, rig;     ///< as they were read or last written
     std::filesystem::path origin;  ///< the project they belong to; empty: none yet
     std::vector<Original> originals;
     std::vector<EncodedMask> masks;
-    EncodedDepth depth;
+    EncodedDepth depth, measured;
 };
 
 }  // namespace ilf::projects

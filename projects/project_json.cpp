@@ -1,7 +1,10 @@
 #include "projects/project_json.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
+
+#include "projects/follow_json.h"
 
 namespace ilf::projects {
 namespace {
@@ -35,7 +38,7 @@ Json written(const ConstantDistance& constant, Json json) {
 
 Json written(const PlaneDistance& plane, Json json) {
     json.erase("value_m");
-    json.erase("tolerance_m");
+    json.set("tolerance_m", plane.tolerance.si());
     std::vector<Json> anchors = json.objects("anchors");
     anchors.resize(plane.anchors.size());
     for (std::size_t i = 0; i < anchors.size(); ++i) {
@@ -75,6 +78,7 @@ Distance distanceFrom(JsonReader reader) {
             plane.anchors[i].at = {anchors[i].number("x_px"), anchors[i].number("y_px")};
             plane.anchors[i].distance = Metre::fromSi(anchors[i].number("distance_m"));
         }
+        plane.tolerance = Metre::fromSi(reader.number("tolerance_m", 0.0));
         return plane;
     }
     default:
@@ -106,6 +110,11 @@ Json written(const Region& region, const std::string& mask, Json json) {
             vertices.emplace_back(vertex.x, vertex.y);
         json.setPairs("outline_px", vertices);
     }
+    if (region.follow) {
+        json.set("follow", written(*region.follow, json.object("follow")));
+    } else {
+        json.erase("follow");
+    }
     json.set("visible", region.visible);
     json.set("locked", region.locked);
     json.set("solo", region.solo);
@@ -132,7 +141,68 @@ Region regionFrom(JsonReader& reader) {
         for (const auto& [x, y] : reader.pairs("outline_px"))
             region.outline->vertices.push_back({x, y});
     }
+    if (reader.has("follow")) region.follow = followFrom(reader.object("follow"));
     return region;
+}
+
+Json written(const Pinhole& camera, Json json) {
+    json.set("width", camera.size.width);
+    json.set("height", camera.size.height);
+    json.set("fx", camera.fx);
+    json.set("fy", camera.fy);
+    json.set("cx", camera.cx);
+    json.set("cy", camera.cy);
+    json.set("distortion", std::vector<double>(camera.distortion.begin(), camera.distortion.end()));
+    return json;
+}
+
+Pinhole pinholeFrom(JsonReader reader) {
+    Pinhole camera;
+    camera.size = {reader.whole("width"), reader.whole("height")};
+    camera.fx = reader.number("fx");
+    camera.fy = reader.number("fy");
+    camera.cx = reader.number("cx");
+    camera.cy = reader.number("cy");
+    const std::vector<double> distortion = reader.numbers("distortion", camera.distortion.size());
+    std::copy_n(distortion.begin(), std::min(distortion.size(), camera.distortion.size()), camera.distortion.begin());
+    return camera;
+}
+
+/// What a measured depth is, besides its pixels.
+Json described(const MeasuredDepth& measured, Json json) {
+    json.set("source", measured.source);
+    json.set("provenance", measured.provenance);
+    json.set("camera_px", written(measured.camera, json.object("camera_px")));
+    return json;
+}
+
+MeasuredDepth describedBy(JsonReader& reader) {
+    MeasuredDepth measured;
+    measured.source = reader.word("source", "");
+    measured.provenance = reader.word("provenance", "");
+    measured.camera = pinholeFrom(reader.object("camera_px"));
+    return measured;
+}
+
+Json written(const ViewerPose& viewer, Json json) {
+    const auto& pose = viewer.viewerFromCamera;
+    json.set("rotation", std::vector<double>(pose.rotation.begin(), pose.rotation.end()));
+    json.set("translation_m", std::vector<double>(pose.translation.begin(), pose.translation.end()));
+    json.set("sigma_m", viewer.sigma.si());
+    json.set("source", viewer.source);
+    return json;
+}
+
+ViewerPose viewerFrom(JsonReader reader) {
+    ViewerPose viewer;
+    auto& pose = viewer.viewerFromCamera;
+    const std::vector<double> rotation = reader.numbers("rotation", pose.rotation.size());
+    const std::vector<double> translation = reader.numbers("translation_m", pose.translation.size());
+    std::copy_n(rotation.begin(), std::min(rotation.size(), pose.rotation.size()), pose.rotation.begin());
+    std::copy_n(translation.begin(), std::min(translation.size(), pose.translation.size()), pose.translation.begin());
+    viewer.sigma = Metre::fromSi(reader.number("sigma_m", 0.0));
+    viewer.source = reader.word("source", "typed");
+    return viewer;
 }
 
 Json written(const Scene& scene, const ProjectNames& names, Json json) {
@@ -140,13 +210,24 @@ Json written(const Scene& scene, const ProjectNames& names, Json json) {
     json.set("source", scene.source);
     json.set("focal_px", scene.scale.focalPixels);
     json.set("focal_source", wordOf(kScaleSources, scene.scale.source));
-    if (names.depth.empty()) {
-        json.erase("depth");
+    const auto setDepth = [&](const char* key, const std::string& file, Metre step) {
+        if (file.empty()) return json.erase(key);
+        Json depth = json.object(key);
+        depth.set("file", file);
+        if (step > 0.0_m) {
+            depth.set("metres_per_unit", step.si());
+        } else {
+            depth.erase("metres_per_unit");
+        }
+        json.set(key, depth);
+    };
+    setDepth("depth", names.depth, scene.depth ? scene.depth->step : 0.0_m);
+    setDepth("measured_depth", names.measured, scene.measured ? scene.measured->step : 0.0_m);
+    if (!names.measured.empty()) json.set("measured_depth", described(*scene.measured, json.object("measured_depth")));
+    if (scene.viewer == ViewerPose{}) {
+        json.erase("viewer");
     } else {
-        Json depth = json.object("depth");
-        depth.set("file", names.depth);
-        depth.set("metres_per_unit", scene.depth->metresPerUnit.si());
-        json.set("depth", depth);
+        json.set("viewer", written(scene.viewer, json.object("viewer")));
     }
     return json;
 }
@@ -159,11 +240,23 @@ void readScene(JsonReader reader, ProjectText& project) {
     if (reader.has("focal_source")) {
         scene.scale.source = static_cast<PixelScale::Source>(reader.choice("focal_source", kScaleSources));
     }
-    if (!reader.has("depth")) return;
-    JsonReader depth = reader.object("depth");
-    project.names.depth = depth.word("file");
-    project.depthUnit = Metre::fromSi(depth.number("metres_per_unit"));
-    if (!(project.depthUnit > 0.0_m)) depth.complain("metres_per_unit", "must be more than 0.");
+    if (reader.has("viewer")) scene.viewer = viewerFrom(reader.object("viewer"));
+    const auto stepOf = [](JsonReader& depth) {
+        const Metre step = Metre::fromSi(depth.number("metres_per_unit", 0.0));
+        if (depth.has("metres_per_unit") && !(step > 0.0_m)) depth.complain("metres_per_unit", "must be more than 0.");
+        return step;
+    };
+    if (reader.has("depth")) {
+        JsonReader depth = reader.object("depth");
+        project.names.depth = depth.word("file");
+        project.depthStep = stepOf(depth);
+    }
+    if (reader.has("measured_depth")) {
+        JsonReader measured = reader.object("measured_depth");
+        project.names.measured = measured.word("file");
+        project.measured = describedBy(measured);
+        project.measured.step = stepOf(measured);
+    }
 }
 
 }  // namespace
@@ -237,8 +330,12 @@ Result<ProjectText> projectFrom(const Json& json, const std::string& file) {
 
 std::set<std::string> filesNamedIn(const Json& json) {
     const Json scene = json.object("scene");
-    std::set<std::string> names{"project.json", json.word("wearer"), json.word("rig"), scene.word("picture"),
-                                scene.object("depth").word("file")};
+    std::set<std::string> names{"project.json",
+                                json.word("wearer"),
+                                json.word("rig"),
+                                scene.word("picture"),
+                                scene.object("depth").word("file"),
+                                scene.object("measured_depth").word("file")};
     for (const Json& region : json.objects("regions"))
         names.insert(region.word("mask"));
     names.erase("");

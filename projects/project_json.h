@@ -10,11 +10,11 @@
 
 namespace ilf::projects {
 
-inline constexpr int kProjectVersion = 1;
+inline constexpr int kProjectVersion = 2;  ///< 2: measured depth, the viewer's pose, what regions follow
 
 /// Names of the files that hold what project.json does not; empty: there is none.
 struct ProjectNames {
-    std::string picture, depth, wearer, rig;
+    std::string picture, depth, measured, wearer, rig;
     std::vector<std::string> masks;  ///< one for each region
 };
 
@@ -25,7 +25,8 @@ Json written(const Document& document, const ProjectNames& names, Json before);
 struct ProjectText {
     Document document;
     ProjectNames names;
-    Metre depthUnit = 1.0_mm;
+    Metre depthStep;         ///< 0: the file is in metres
+    MeasuredDepth measured;  ///< all but its pixels
 };
 Result<ProjectText> projectFrom(const Json& json, const std::string& file);
 

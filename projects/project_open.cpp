@@ -29,6 +29,7 @@ public:
         return readText()
             .and_then([&] { return readPixels(); })
             .and_then([&] { return readPeople(); })
+            .and_then([&] { return findDistances(); })
             .and_then([&] { return checkNumbers(); })
             .map([&] {
                 return OpenedProject{document(), ProjectExtras(std::make_shared<ProjectExtras::State>(state_))};
@@ -57,7 +58,7 @@ private:
         for (std::size_t i = 0; i < document().regions.size(); ++i) {
             if (auto read = readMaskOf(i); !read) return read;
         }
-        return text_.names.depth.empty() ? Result<void>() : readDepth();
+        return readDepth();
     }
 
     Result<void> readScenePicture() {
@@ -90,15 +91,45 @@ private:
         return {};
     }
 
-    Result<void> readDepth() {
-        const std::string& name = text_.names.depth;
+    /// A file of depth, and what it is kept as for the next save.
+    Result<DepthMap> readDepthFile(const std::string& name, Metre step, EncodedDepth& kept) {
         auto bytes = tree_.read(name);
         if (!bytes) return tl::unexpected(bytes.error());
-        auto raw = decodeDepth16(*bytes, tree_.spokenName(name));
-        if (!raw) return tl::unexpected(raw.error());
-        if (raw->size() != document().scene.size()) return wrongSize(name, "the depth map", raw->size());
-        state_.depth = {*raw, Box<std::string>(*std::move(bytes))};
-        document().scene.depth = Box<DepthMap>(DepthMap{*std::move(raw), text_.depthUnit});
+        auto depth = decodedDepth(*bytes, tree_.spokenName(name), step);
+        if (!depth) return depth;
+        if (depth->metres.size() != document().scene.size()) {
+            return tl::unexpected(wrongSize(name, "the depth map", depth->metres.size()).error());
+        }
+        kept = {*depth, Box<std::string>(*std::move(bytes)), std::filesystem::path(name).extension().string()};
+        return depth;
+    }
+
+    Result<void> readDepth() {
+        if (!text_.names.depth.empty()) {
+            auto depth = readDepthFile(text_.names.depth, text_.depthStep, state_.depth);
+            if (!depth) return tl::unexpected(depth.error());
+            document().scene.depth = Box<DepthMap>(*std::move(depth));
+        }
+        if (!text_.names.measured.empty()) {
+            auto depth = readDepthFile(text_.names.measured, text_.measured.step, state_.measured);
+            if (!depth) return tl::unexpected(depth.error());
+            text_.measured.metres = std::move(depth->metres);
+            text_.measured.sigma = std::move(depth->sigma);
+        }
+        return {};
+    }
+
+    /// Distances from what was measured, once it is known who looks.
+    Result<void> findDistances() {
+        const auto refused = [&](const Error& error) {
+            return fail(Fault::badFile, tree_.spokenName(kProjectJson) + ": " + error.what);
+        };
+        auto placed = edited(document(), SetViewerPose{document().scene.viewer});
+        if (!placed) return refused(placed.error());
+        if (text_.measured.metres.empty()) return {};
+        auto found = edited(document(), SetMeasuredDepth{Box<MeasuredDepth>(text_.measured)});
+        if (!found) return refused(found.error());
+        document() = *std::move(found);
         return {};
     }
 
@@ -146,6 +177,11 @@ private:
         for (const Region* region : regions) {
             if (auto good = checked(region->distance, "the distance of \"" + region->name + "\""); !good) {
                 return refused(good.error());
+            }
+            if (region->follow) {
+                if (auto good = checked(*region->follow, document().scene.size()); !good) {
+                    return refused({Fault::outOfRange, "region \"" + region->name + "\": " + good.error().what});
+                }
             }
             if (!region->strength) continue;
             // Through the background of an empty document: a region that is locked refuses edits.

@@ -116,16 +116,27 @@ private:
         return {};
     }
 
+    /// Distances that follow from what was measured are worked out anew when the project is opened.
     Result<void> addDepth() {
-        if (!document_.scene.depth || document_.scene.depth->raw.empty()) return {};
-        const Image<std::uint16_t>& raw = document_.scene.depth->raw;
-        if (!state_.depth.bytes || !state_.depth.raw.same(raw)) {
-            auto bytes = encodePng16(raw);
-            if (!bytes) return tl::unexpected(bytes.error());
-            state_.depth = {raw, boxed(*std::move(bytes))};
+        const Scene& scene = document_.scene;
+        const auto addAs = [&](const char* name, const DepthMap& depth, EncodedDepth& kept) -> Result<std::string> {
+            auto encoded = encodedDepth(depth, kept);
+            if (!encoded) return tl::unexpected(encoded.error());
+            kept = *std::move(encoded);
+            const std::string file = name + kept.extension;
+            add(file, kept.bytes);
+            return file;
+        };
+        if (scene.measured) {
+            const MeasuredDepth& m = *scene.measured;
+            auto file = addAs("measured-depth", {m.metres, m.sigma, m.step}, state_.measured);
+            if (!file) return tl::unexpected(file.error());
+            names_.measured = *file;
+        } else if (scene.depth && !scene.depth->metres.empty()) {
+            auto file = addAs("depth", *scene.depth, state_.depth);
+            if (!file) return tl::unexpected(file.error());
+            names_.depth = *file;
         }
-        names_.depth = "depth.png";
-        add(names_.depth, state_.depth.bytes);
         return {};
     }
 

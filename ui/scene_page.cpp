@@ -96,7 +96,7 @@ void scenePage(Panel& p) {
     if (scene.depth) {
         const FieldSpec step{Unit::millimetre, 1e-6, 1.0, 0.0,
                              "How far one step of the depth map's 16-bit values is: 1 mm, 0.1 mm, 0.2 mm (TUM) ..."};
-        if (const auto change = numberRow(p, "One step", "###depthStep", scene.depth->metresPerUnit.si(), step)) {
+        if (const auto change = numberRow(p, "One step", "###depthStep", scene.depth->step.si(), step)) {
             p.edit(change->commits, SetDepthScale{Metre::fromSi(change->value)});
         }
     }

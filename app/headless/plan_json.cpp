@@ -21,6 +21,13 @@ json optionalNumber(const std::optional<Q>& value) {
     return value ? number(value->si()) : json();
 }
 
+/// Where a region's distance comes from: "constant", "plane", "depth-map"; null where only objects are planned.
+json distanceFrom(const Document& document, const RegionId& id) {
+    const std::array<const char*, 3> kinds{"constant", "plane", "depth-map"};
+    const Region* region = findRegion(document, id);
+    return region != nullptr ? json(kinds[region->distance.index()]) : json();
+}
+
 const std::array<const char*, 3> kTopics{"flicker", "ambient", "privacy"};
 
 /// Cosine and sine parts, from the mean up: f(t) = sum of cosine[k] cos(2 pi k rate t) + sine[k] sin(2 pi k rate t).
@@ -101,9 +108,12 @@ std::string planJson(const Plan& plan, const Document& document) {
             {"look", word(region.look)},
             {"distance_m", number(region.nearest.si())},
             {"farthest_m", number(region.farthest.si())},
+            {"distance_sigma_m", region.sigma > 0.0_m ? number(region.sigma.si()) : json()},
+            {"distance_from", distanceFrom(document, region.id)},
             {"P_min_D", optionalNumber(region.pMin)},
             {"level_D", region.level ? number(region.levelPower.si()) : json()},
             {"blur_diameter_um", number(region.blurDiameter.in(1.0_um))},
+            {"blur_diameter_farthest_um", number(region.blurDiameterFarthest.in(1.0_um))},
             {"blur_diameter_attending_um", number(region.blurDiameterAttending.in(1.0_um))},
             {"scale", number(region.scale)},
             {"already_blurred", region.alreadyBlurred},

@@ -51,11 +51,16 @@ std::string planText(const Plan& plan, const Document& document) {
     out += asText("%.3f D", error) + " rms at most while it is lit.\n" + report.why + "\n";
     for (const RegionPlan& region : plan.regions) {
         out += "  " + region.name + ": " + word(region.look) + " at " + asText("%.3f m", region.nearest.si());
+        if (region.farthest > region.nearest) out += asText(" to %.3f m", region.farthest.si());
+        if (region.sigma > 0.0_m) out += asText(" (known to +-%.3f m)", 2.0 * region.sigma.si());
         if (region.pMin) out += ", P_min " + asText("%.3f D", region.pMin->si());
         if (region.level) out += ", lit at " + asText("%.3f D", region.levelPower.si());
         if (region.look == Look::blur) {
-            out += ", blur " + asText("%.1f um", region.blurDiameter.in(1.0_um)) + " relaxed, " +
-                   asText("%.1f um", region.blurDiameterAttending.in(1.0_um)) + " attending";
+            out += ", blur " + asText("%.1f", region.blurDiameter.in(1.0_um)) +
+                   (region.blurDiameterFarthest > region.blurDiameter
+                        ? asText(" to %.1f", region.blurDiameterFarthest.in(1.0_um))
+                        : std::string()) +
+                   " um relaxed, " + asText("%.1f um", region.blurDiameterAttending.in(1.0_um)) + " attending";
         }
         out += "\n";
         if (!region.problem.empty()) out += "    problem: " + region.problem + "\n";

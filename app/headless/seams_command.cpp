@@ -8,6 +8,7 @@
 #include "app/headless/prepare.h"
 #include "app/headless/seams_json.h"
 #include "app/words.h"
+#include "core/perceived/seam_errors.h"
 
 namespace ilf::app {
 namespace {
@@ -90,11 +91,15 @@ int experimentCommand(const SeamsOptions& options) {
 
 int seamsCommand(const SeamsOptions& options) {
     SeamQuestion question;
-    for (const std::string& text : options.errors) {
-        if (const auto good = setError(question.errors, text); !good) {
-            refused("seams", good.error());
-            return kUsage;
+    const auto setErrors = [&]() -> Result<void> {
+        for (const std::string& text : options.errors) {
+            if (auto good = setError(question.errors, text); !good) return good;
         }
+        return {};
+    };
+    if (const auto good = setErrors(); !good) {
+        refused("seams", good.error());
+        return kUsage;
     }
     if (options.file.empty() == options.experiment.empty() || options.experiment.empty() != options.out.empty()) {
         std::cerr << "illuminatedfocus seams: name a FILE, or --experiment FOLDER and -o FOLDER.\n";
@@ -104,6 +109,8 @@ int seamsCommand(const SeamsOptions& options) {
 
     const auto project = prepared(options.file, options.rig);
     if (!project) return refused("seams", project.error());
+    question.errors = knownErrors(project->compiled.document, project->compiled.plan);
+    if (const auto good = setErrors(); !good) return refused("seams", good.error());
     const auto start = std::chrono::steady_clock::now();
     SeamsReport report{project->compiled, borderSeams(project->compiled, question), {}, 0.0};
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;

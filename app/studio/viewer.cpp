@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/srgb.h"
+#include "core/perceived/seam_errors.h"
 
 namespace ilf::app {
 namespace {
@@ -125,7 +126,9 @@ void Viewer::work(const Posted& posted, const std::stop_token& stop) {
     if (job.dragging || seen_.refusal) return;
 
     if (!seen_.seams) {
-        auto seams = borderSeams(compiled, {}, disturbed);
+        SeamQuestion question;
+        question.errors = knownErrors(compiled.document, compiled.plan);
+        auto seams = borderSeams(compiled, question, disturbed);
         if (disturbed()) return;  // what there is of them may be a part
         seen_.seams = std::make_shared<const std::vector<BorderSeam>>(std::move(seams));
         publish();

@@ -30,6 +30,7 @@ struct DistanceAnchor {
 /// affine between the anchors: within 0.01 D for anchors at 0.4 m and beyond, a seventh of the narrowest focus border.
 struct PlaneDistance {
     std::array<DistanceAnchor, 3> anchors;
+    Metre tolerance = 0.0_m;  ///< the surface lies within it of the plane; of a fitted plane: two standard deviations
     bool operator==(const PlaneDistance&) const = default;
 };
 
@@ -44,14 +45,20 @@ inline constexpr Metre kFarthestDistance = 1000.0_m;
 
 using Distance = std::variant<ConstantDistance, PlaneDistance, FromDepthMap>;
 
-/// Depth of the whole picture: `raw` has one channel and the picture's size; distance = raw * metresPerUnit; raw 0 is
-/// a hole. Distances are axial, from the wearer's lens.
+/// Depth of the whole picture, pixel by pixel: metres along the view axis from the wearer's lens; 0: a hole. Floats,
+/// because sixteen bits cannot hold 0.1 m to 0.001 D and 2 m at once.
 struct DepthMap {
-    Image<std::uint16_t> raw;
-    Metre metresPerUnit = 1.0_mm;
-    Image<std::uint16_t> sigma;  ///< one standard deviation in the same units; may be empty: not known
+    Image<float> metres;  ///< one channel, the picture's size
+    Image<float> sigma;   ///< one standard deviation, metres; may be empty: not known
+    Metre step = 0.0_m;   ///< one step of the whole numbers it was read from; 0: it was in metres
     bool operator==(const DepthMap&) const = default;
 };
+
+/// `raw` times `step`; raw 0 is a hole.
+DepthMap depthOf(const Image<std::uint16_t>& raw, Metre step);
+/// The whole numbers it came from; empty when some value is no whole multiple of the map's step, as after a change of
+/// the viewer's pose.
+Image<std::uint16_t> wholeSteps(const DepthMap& depth);
 
 /// Vergence 1/d over the picture as an affine function: X(x, y) = at + dx * x + dy * y, in dioptres and dioptres per
 /// camera pixel. Constant distances have dx = dy = 0.

@@ -73,8 +73,8 @@ struct Scene {
     PixelScale scale;
     Box<DepthMap> depth;  ///< distances from the wearer's lens; may be empty
     Box<MeasuredDepth>
-        measured;  ///< what `depth` was made from, seen from the camera; may be empty: depth came as it is
-    ViewerPose viewer;
+        measured;       ///< what `depth` was made from, seen from the camera; may be empty: depth came as it is
+    ViewerPose viewer;  ///< where the wearer is: `measured` and this make `depth`
     bool operator==(const Scene&) const = default;
 
     Size size() const { return picture ? picture->size() : Size{}; }
@@ -147,13 +147,15 @@ std::optional<Metre> distanceAt(const Document& document, const Region& region, 
 /// least half and no active region above it does. For a region that covers nothing: of its distance alone, or nothing
 /// if that needs pixels.
 ///
-/// Constant: value -+ tolerance. Plane: its extremes over the centres of the pixels seen, ending at kFarthestDistance.
-/// Depth map: the 0.1 % and 99.9 % quantiles of the pixels seen that have depth, so that a few stray pixels of the
-/// sensor, which would otherwise decide how far the lens must sweep, do not. Of more than 64 whole tiles,
-/// one pixel in 4 x 4 stands for the others.
+/// Constant: value -+ tolerance. Plane: its extremes over the centres of the pixels seen, ending at kFarthestDistance,
+/// -+ tolerance. Depth map: the 0.1 % and 99.9 % quantiles of the pixels seen that have depth, each taken two standard
+/// deviations nearer or farther where those are known, -+ tolerance: a few stray pixels of the sensor, which would
+/// otherwise decide how far the lens must sweep, do not. Of more than 64 whole tiles, one pixel in 4 x 4 stands for the
+/// others. A tolerance counts as two standard deviations.
 struct DistanceRange {
     Metre nearest, farthest;
-    double holes = 0.0;  ///< share of its pixels without depth
+    double holes = 0.0;   ///< share of its pixels without depth
+    Metre sigma = 0.0_m;  ///< one standard deviation of its distance, a mean over its pixels; 0: not known
     bool operator==(const DistanceRange&) const = default;
 };
 std::optional<DistanceRange> distanceRange(const Document& document, const Region& region);

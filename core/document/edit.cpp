@@ -253,27 +253,27 @@ Result<Document> edited(Document document, const Edit& edit) {
             document.alpha = e.alpha;
             return std::move(document);
         },
-        [&](const SetDepthScale& e) -> Result<Document> {
-            if (!document.scene.depth) {
-                return fail(Fault::notFound, "The scene has no depth map: load one before setting its scale.");
+        [&](const SetMeasuredDepth& e) { return withMeasured(std::move(document), e); },
+        [&](const SetViewerPose& e) { return withViewer(std::move(document), e); },
+        [&](const SetDepthScale& e) { return withDepthScale(std::move(document), e); },
+        [&](const SetPixelScale& e) { return withPixelScale(std::move(document), e); },
+        [&](const SetFollow& e) -> Result<Document> {
+            if (e.region == kBackgroundId) return notTheBackground("stays where it is and follows nothing");
+            if (e.follow) {
+                if (auto ok = checked(*e.follow, document.scene.size()); !ok) return tl::unexpected(ok.error());
             }
-            if (!isFinite(e.metresPerUnit) || e.metresPerUnit < 1.0_um || e.metresPerUnit > 1.0_m) {
-                return fail(Fault::outOfRange, "A step of the depth map must be 1 \u00b5m to 1 m.");
-            }
-            document.scene.depth = Box(DepthMap{document.scene.depth->raw, e.metresPerUnit, document.scene.depth->sigma});
-            return std::move(document);
-        },
-        [&](const SetPixelScale& e) -> Result<Document> {
-            if (auto ok = checked(e.scale, document.scene.size()); !ok) return tl::unexpected(ok.error());
-            document.scene.scale = e.scale;
-            return std::move(document);
+            return withUnlocked(std::move(document), e.region, [&](Region& region) -> Result<void> {
+                region.follow = e.follow;
+                return {};
+            });
         },
         [&](const SetScene& e) -> Result<Document> { return withScene(std::move(document), e.scene); },
         [&](const SetWearer& e) -> Result<Document> {
             if (auto ok = checked(e.wearer); !ok) return tl::unexpected(ok.error());
             if (auto ok = checkedTogether(e.wearer, document.rig); !ok) return tl::unexpected(ok.error());
+            const bool moved = document.wearer.lensToPupil != e.wearer.lensToPupil;
             document.wearer = e.wearer;
-            return std::move(document);
+            return moved ? withDistancesAnew(std::move(document)) : std::move(document);
         },
         [&](const SetRig& e) -> Result<Document> {
             if (auto ok = checked(e.rig); !ok) return tl::unexpected(ok.error());
@@ -312,6 +312,9 @@ std::string label(const Edit& edit) {
         [](const InvertMask&) { return std::string("Invert"); },
         [](const SetSeam&) { return std::string("Set seam"); },
         [](const SetAlpha&) { return std::string("Set alpha"); },
+        [](const SetMeasuredDepth& e) { return std::string(e.measured ? "Set depth map" : "Remove depth map"); },
+        [](const SetViewerPose&) { return std::string("Move the wearer"); },
+        [](const SetFollow& e) { return std::string(e.follow ? "Set what it follows" : "Follow nothing"); },
         [](const SetDepthScale&) { return std::string("Set depth scale"); },
         [](const SetPixelScale&) { return std::string("Set field of view"); },
         [](const SetScene&) { return std::string("Change picture"); },

@@ -95,7 +95,22 @@ struct SetSeam {
 struct SetAlpha {
     Dioptre alpha;
 };
-/// Another unit for the scene's depth map: metres for each step of its raw values.
+/// Depth as the camera sees it; the distances from the wearer follow from it. Empty: the scene has no depth any more,
+/// which is refused while a region reads its distance from it.
+struct SetMeasuredDepth {
+    Box<MeasuredDepth> measured;
+};
+/// Where the wearer stands; the distances of measured depth follow. Refused where nothing measured is in front of the
+/// lens.
+struct SetViewerPose {
+    ViewerPose viewer;
+};
+/// What a region follows; absent: it stays where it was painted.
+struct SetFollow {
+    RegionId region;
+    std::optional<Follow> follow;
+};
+/// Another unit for the scene's depth map: metres for each step of the whole numbers it was read from.
 struct SetDepthScale {
     Metre metresPerUnit;
 };
@@ -116,10 +131,10 @@ struct SetName {
     std::string name;
 };
 
-using Edit =
-    std::variant<AddRegion, RemoveRegion, DuplicateRegion, RenameRegion, MoveRegion, SetLook, SetStrength, SetDistance,
-                 SetVisible, SetLocked, SetSolo, Paint, FillShape, SetOutline, SetMask, GrowMask, InvertMask, SetSeam,
-                 SetAlpha, SetDepthScale, SetPixelScale, SetScene, SetWearer, SetRig, SetName>;
+using Edit = std::variant<AddRegion, RemoveRegion, DuplicateRegion, RenameRegion, MoveRegion, SetLook, SetStrength,
+                          SetDistance, SetVisible, SetLocked, SetSolo, Paint, FillShape, SetOutline, SetMask, GrowMask,
+                          InvertMask, SetSeam, SetAlpha, SetMeasuredDepth, SetViewerPose, SetFollow, SetDepthScale,
+                          SetPixelScale, SetScene, SetWearer, SetRig, SetName>;
 
 /// The next document, or why there is none (no such region, locked, a number out of range ...). Arguments are values:
 /// a refusal leaves everything as it was. Looks, strength and distance also take kBackgroundId.
@@ -131,6 +146,7 @@ std::string label(const Edit& edit);
 /// Checks a wearer or rig typed or read from a file: every number finite and inside its range, with the sentence.
 Result<void> checked(const Wearer& wearer);
 Result<void> checked(const Rig& rig);
+Result<void> checked(const Follow& follow, Size picture);
 /// `spoken` names the distance in the sentence, e.g. "the distance of \"Face\"".
 Result<void> checked(const Distance& distance, const std::string& spoken);
 

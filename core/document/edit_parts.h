@@ -29,6 +29,17 @@ Result<Mask> withPaint(const Document& document, const Region& region, const Pai
 Result<Mask> withShape(const Document& document, const Region& region, const FillShape& fill);
 Result<void> checked(const Outline& outline);
 
+/// Measured depth, the viewer's pose, and what `scene.depth` is made of: each refuses without having changed anything.
+Result<Document> withMeasured(Document document, const SetMeasuredDepth& edit);
+Result<Document> withViewer(Document document, const SetViewerPose& edit);
+Result<Document> withPixelScale(Document document, const SetPixelScale& edit);
+Result<Document> withDepthScale(Document document, const SetDepthScale& edit);
+/// `scene.depth` from what was measured, where something was; else the document as it is.
+Result<Document> withDistancesAnew(Document document);
+Result<void> checked(const ViewerPose& viewer);
+/// The depth, measured depth and viewer of a scene that comes as a whole.
+Result<void> checkedDepth(const Scene& scene);
+
 /// Another picture beneath the regions: masks, outlines and anchors go along when its size is another.
 Result<Document> withScene(Document document, Scene scene);
 Result<void> checked(const PixelScale& scale, Size picture);

@@ -62,19 +62,7 @@ Result<Document> withScene(Document document, Scene scene) {
                                            std::to_string(size.height) +
                                            " pixels, more than 100 megapixels: scale it down first.");
     }
-    if (scene.depth && (scene.depth->raw.size() != size || scene.depth->raw.channels() != 1)) {
-        return fail(Fault::outOfRange, "The depth map has " + std::to_string(scene.depth->raw.width()) + " x " +
-                                           std::to_string(scene.depth->raw.height()) + " pixels and the picture " +
-                                           std::to_string(size.width) + " x " + std::to_string(size.height) +
-                                           ": they must agree.");
-    }
-    if (scene.depth) {
-        const Metre unit = scene.depth->metresPerUnit;
-        if (!isFinite(unit) || unit <= 0.0_m || unit > 1.0_m) {
-            return fail(Fault::outOfRange, "One unit of the depth map must be more than 0 and at most 1 m, not " +
-                                               spokenNumber(unit.si()) + " m.");
-        }
-    }
+    if (auto ok = checkedDepth(scene); !ok) return tl::unexpected(ok.error());
     if (scene.scale.focalPixels == 0.0) {
         scene.scale = {focalPixels(size.width, kDefaultFieldOfView), PixelScale::Source::assumed};
     }
@@ -82,6 +70,11 @@ Result<Document> withScene(Document document, Scene scene) {
 
     const Size before = document.scene.size();
     document.scene = std::move(scene);
+    if (auto anew = withDistancesAnew(document)) {
+        document = *std::move(anew);
+    } else {
+        return tl::unexpected(anew.error());
+    }
     if (before == size) return document;
     try {
         const auto moved = [&](const Box<Region>& box) {

@@ -16,13 +16,19 @@ std::size_t bytesOf(const Mask& mask, const Mask& before) {
     return bytes + sizeof(Box<Tile>) * static_cast<std::size_t>(mask.columns()) * static_cast<std::size_t>(mask.rows());
 }
 
+std::size_t depthBytes(const Image<float>& metres, const Image<float>& sigma) {
+    return metres.pixels().size_bytes() + sigma.pixels().size_bytes();
+}
+
 /// Bytes of tiles and pictures that `document` holds and `before` does not.
 std::size_t bytesNotShared(const Document& document, const Document& before) {
     std::size_t bytes = 0;
     const auto& picture = document.scene.picture;
     if (picture && !picture.same(before.scene.picture)) bytes += picture->pixels().size_bytes();
     const auto& depth = document.scene.depth;
-    if (depth && !depth.same(before.scene.depth)) bytes += depth->raw.pixels().size_bytes();
+    if (depth && !depth.same(before.scene.depth)) bytes += depthBytes(depth->metres, depth->sigma);
+    const auto& measured = document.scene.measured;
+    if (measured && !measured.same(before.scene.measured)) bytes += depthBytes(measured->metres, measured->sigma);
     for (const Box<Region>& region : document.regions) {
         const auto earlier = std::find_if(before.regions.begin(), before.regions.end(),
                                           [&](const Box<Region>& r) { return r->id == region->id; });

@@ -122,8 +122,8 @@ SceneCut::BetweenBands SceneCut::between(const Part& part, int x, int y) const {
     double vergence = 0.5 * (part.nearest + part.farthest);  // at holes of a depth map
     if (!part.fromDepth) {
         vergence = part.affine(x + 0.5, y + 0.5);
-    } else if (depth_ && x < depth_->raw.width() && y < depth_->raw.height()) {
-        const double metres = depth_->raw.at(x, y) * depth_->metresPerUnit.si();
+    } else if (depth_ && x < depth_->metres.width() && y < depth_->metres.height()) {
+        const double metres = static_cast<double>(depth_->metres.at(x, y));
         if (metres > 0.0) vergence = 1.0 / metres;
     }
     vergence = std::clamp(vergence, part.farthest, part.nearest);

@@ -11,12 +11,14 @@ namespace {
 /// Powers nearer than this show the same picture.
 constexpr Dioptre kSamePower = 1e-3_D;
 
-Metre toleranceOf(const Document& document, const RegionId& id) {
-    const Region* region = findRegion(document, id);
-    if (region == nullptr) return {};
+/// What the region was given, or, where a plane or a depth map is less certain than that, two standard deviations.
+Metre toleranceOf(const Document& document, const RegionPlan& planned) {
+    const Metre uncertain = 2.0 * planned.sigma;
+    const Region* region = findRegion(document, planned.id);
+    if (region == nullptr) return uncertain;
     if (const auto* constant = std::get_if<ConstantDistance>(&region->distance)) return constant->tolerance;
-    if (const auto* map = std::get_if<FromDepthMap>(&region->distance)) return map->tolerance;
-    return {};
+    if (const auto* map = std::get_if<FromDepthMap>(&region->distance)) return std::max(map->tolerance, uncertain);
+    return uncertain;
 }
 
 /// Nearest and farthest point without the tolerance that the plan has added.
@@ -57,13 +59,13 @@ void Subject::findLight(const Plan& plan, const RegionPlan& region) {
 
 void Subject::findPlace(const Plan& plan, const RegionPlan& region, const Document& document) {
     assumed_.pupil = eye_.pupil;
-    tolerance_ = errors_.distance.value_or(toleranceOf(document, region.id));
-    const auto [near, far] = ends(region, toleranceOf(document, region.id));
+    tolerance_ = errors_.distance.value_or(toleranceOf(document, region));
+    const auto [near, far] = ends(region, toleranceOf(document, region));
     assumed_.distance = near;
     if (const RegionPlan* attended = attendedRegion(plan)) {
-        attendedTolerance_ = errors_.distance.value_or(toleranceOf(document, attended->id));
+        attendedTolerance_ = errors_.distance.value_or(toleranceOf(document, *attended));
         attendedLight_ = lightAt(plan, *attended);
-        assumed_.attended = ends(*attended, toleranceOf(document, attended->id))[0];
+        assumed_.attended = ends(*attended, toleranceOf(document, *attended))[0];
     }
     if (region.look == Look::blur) return;
     World other = assumed_;

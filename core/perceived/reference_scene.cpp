@@ -91,8 +91,8 @@ std::vector<double> weightedVergence(const Document& document, const Cover& cove
     for (std::size_t i = 0; i < weighted.size(); ++i) {
         if (weighted[i] <= 0.0) continue;
         const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-        const double metres = depth && x < depth->raw.width() && y < depth->raw.height()
-                                  ? depth->raw.at(x, y) * depth->metresPerUnit.si()
+        const double metres = depth && x < depth->metres.width() && y < depth->metres.height()
+                                  ? static_cast<double>(depth->metres.at(x, y))
                                   : 0.0;
         weighted[i] *= metres > 0.0 ? std::clamp(1.0 / metres, far, near) : 0.5 * (near + far);
     }

@@ -203,6 +203,7 @@ void describeRegions(Plan& plan, const Draft& draft) {
     }
     for (RegionPlan& region : plan.regions) {
         region.blurDiameter = blurDiameter(eye, region.nearest, region.levelPower);
+        region.blurDiameterFarthest = blurDiameter(eye, region.farthest, region.levelPower);
         region.blurDiameterAttending =
             attended && !plan.input.camera
                 ? blurDiameterAttending(eye, region.nearest, region.levelPower, plan.regions[*attended].nearest,
@@ -323,6 +324,7 @@ Result<Plan> plan(const PlanInput& input, const Plan* previous, std::vector<Diop
         region.look = object.look;
         region.nearest = object.nearest;
         region.farthest = object.farthest;
+        region.sigma = object.sigma;
         plan.regions.push_back(std::move(region));
     }
 

@@ -22,7 +22,8 @@ struct PlanObject {
     std::string name;
     Look look = Look::focus;
     std::optional<Dioptre> strength;
-    Metre nearest, farthest;
+    Metre nearest, farthest;  ///< with its uncertainty taken off and added: see `distanceRange`
+    Metre sigma = 0.0_m;      ///< of its distance, one standard deviation; 0: not known
     bool operator==(const PlanObject&) const = default;
 };
 
@@ -85,10 +86,12 @@ struct RegionPlan {
     std::string name;
     Look look = Look::focus;
     Metre nearest, farthest;
+    Metre sigma = 0.0_m;          ///< of its distance, one standard deviation; 0: not known
     std::optional<Dioptre> pMin;  ///< least power that blurs its nearest point; none when always blurred
     std::optional<int> level;     ///< none for neutral
     Dioptre levelPower;
     Metre blurDiameter;           ///< at its nearest point, relaxed eye: the least that can be reached
+    Metre blurDiameterFarthest;   ///< at its farthest point: the most, where the surface is slanted or deep
     Metre blurDiameterAttending;  ///< eye accommodated to the nearest focused object
     double scale = 1.0;           ///< apparent magnification against the focus level
     bool alreadyBlurred = false;  ///< beyond the window of sharp vision even at rest

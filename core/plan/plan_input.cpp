@@ -36,7 +36,8 @@ bool seen(Size size, const std::vector<const Region*>& above, const Mask* own) {
 void add(PlanInput& input, const Document& document, const Region& region) {
     const auto range = distanceRange(document, region);
     if (!range) return;
-    input.objects.push_back({region.id, region.name, region.look, region.strength, range->nearest, range->farthest});
+    input.objects.push_back(
+        {region.id, region.name, region.look, region.strength, range->nearest, range->farthest, range->sigma});
 }
 
 }  // namespace

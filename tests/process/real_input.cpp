@@ -116,7 +116,7 @@ TEST_CASE("real input: an RGB-D desk is painted and played with its own depth") 
     auto raw = projects::readDepth16(*depth);
     REQUIRE(raw);
     Scene scene = opened->document.scene;
-    scene.depth = Box(DepthMap{*std::move(raw), Metre::fromSi(1.0 / 5000.0)});
+    scene.depth = Box(depthOf(*raw, Metre::fromSi(1.0 / 5000.0)));
     scene.scale = {525.0, PixelScale::Source::calibrated};
     opened->document = after(std::move(opened->document), SetScene{scene});
     paintAndRun(*std::move(opened), ConstantDistance{1.8_m, 0.1_m}, FromDepthMap{});

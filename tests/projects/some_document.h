@@ -33,7 +33,7 @@ inline Document fullDocument(Size size = {96, 70}) {
     scene.scale = {1234.5, PixelScale::Source::typed};
     std::vector<std::uint16_t> raw(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height), 900);
     raw[5] = 0;
-    scene.depth = Box<DepthMap>(DepthMap{Image<std::uint16_t>(size, 1, std::move(raw)), 0.5_mm});
+    scene.depth = Box<DepthMap>(depthOf(Image<std::uint16_t>(size, 1, std::move(raw)), 0.5_mm));
     Document document = newDocument(std::move(scene));
     document.name = "Desk \xE9\xAB\x98";  // U+9AD8 in UTF-8
     Region face;

@@ -61,7 +61,7 @@ TEST_CASE("samples: the true depth of a region agrees with the distance it was g
                     double allowed = name == "four-objects" ? 0.12 * stated->si() : 0.003;
                     if (const auto* constant = std::get_if<ConstantDistance>(&region->distance))
                         allowed += constant->tolerance.si();
-                    const double seen = depth.raw.at(x, y) * depth.metresPerUnit.si();
+                    const double seen = static_cast<double>(depth.metres.at(x, y));
                     off += std::abs(seen - stated->si()) > allowed ? 1.0 : 0.0;
                     pixels += 1.0;
                 }

@@ -129,7 +129,7 @@ ilf::Scene sceneOf(const Scene& scene, const Rendering& rendering) {
     out.source = scene.name + " (made by make-samples)";
     const double degrees = double(scene.camera.across) * 180.0 / double(kPi);
     out.scale = {focalPixels(rendering.width, std::round(degrees * 1e3) / 1e3), PixelScale::Source::typed};
-    out.depth = Box<DepthMap>(DepthMap{Image<std::uint16_t>(size, 1, std::move(depth)), 0.1_mm});
+    out.depth = Box<DepthMap>(depthOf(Image<std::uint16_t>(size, 1, std::move(depth)), 0.1_mm));
     return out;
 }
 

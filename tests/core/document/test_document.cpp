@@ -178,7 +178,7 @@ TEST_CASE("distance: a depth map gives the region's own pixels, without holes an
     raw[60 * 320 + 60] = 7;                               // a stray
     raw[61 * 320 + 60] = 65535;
     Scene scene = document.scene;
-    scene.depth = Box<DepthMap>(DepthMap{Image<std::uint16_t>({320, 200}, 1, raw), 1.0_mm});
+    scene.depth = Box<DepthMap>(depthOf(Image<std::uint16_t>({320, 200}, 1, raw), 1.0_mm));
     document = with(document, {SetScene{scene}, SetDistance{"b", FromDepthMap{0.01_m}},
                                FillShape{"b", Rectangle{{0.0, 0.0}, {100.0, 100.0}}}});
     const Region& region = *findRegion(document, "b");

@@ -203,7 +203,7 @@ TEST_CASE("edit: a picture of another size takes masks, outlines and anchors alo
     CHECK(twice.regions[0]->mask.at(70, 140) == 0);
     CHECK(refusal(SetScene{}) == "The picture is empty: choose another file or camera.");
     Scene mismatched = sceneOf({64, 64});
-    mismatched.depth = Box<DepthMap>(DepthMap{Image<std::uint16_t>({2, 1}, 1, {1, 2}), 1.0_mm});
+    mismatched.depth = Box<DepthMap>(depthOf(Image<std::uint16_t>({2, 1}, 1, {1, 2}), 1.0_mm));
     CHECK(refusal(SetScene{mismatched}) == "The depth map has 2 x 1 pixels and the picture 64 x 64: they must agree.");
 }
 
@@ -221,12 +221,14 @@ TEST_CASE("edit: the depth map's scale is an edit of its own, refused without a 
     const auto without = edited(document, SetDepthScale{2.0_mm});
     REQUIRE_FALSE(without);
     CHECK(without.error().what == "The scene has no depth map: load one before setting its scale.");
-    scene.depth = Box(DepthMap{Image<std::uint16_t>({4, 2}, 1, std::vector<std::uint16_t>(8, 500)), 1.0_mm});
+    scene.depth = Box(depthOf(Image<std::uint16_t>({4, 2}, 1, std::vector<std::uint16_t>(8, 500)), 1.0_mm));
     document = newDocument(scene);
     const auto scaled = edited(document, SetDepthScale{0.2_mm});
     REQUIRE(scaled);
-    CHECK(scaled->scene.depth->metresPerUnit == 0.2_mm);
-    CHECK(scaled->scene.depth->raw.same(document.scene.depth->raw));
+    CHECK(scaled->scene.depth->step == 0.2_mm);
+    CHECK(scaled->scene.depth->metres.at(1, 1) == doctest::Approx(0.1));
+    CHECK(wholeSteps(*scaled->scene.depth) == wholeSteps(*document.scene.depth));
+    CHECK(edited(*scaled, SetDepthScale{1.0_mm})->scene.depth == document.scene.depth);
     CHECK_FALSE(edited(document, SetDepthScale{0.0_m}));
     CHECK_FALSE(edited(document, SetDepthScale{Metre::fromSi(std::nan(""))}));
 }

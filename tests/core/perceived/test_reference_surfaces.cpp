@@ -40,7 +40,7 @@ Document withDepth(Document d, const std::function<double(double, double)>& metr
         for (int x = 0; x < kSmall.width; ++x)
             raw.push_back(static_cast<std::uint16_t>(std::lround(metres(x + 0.5, y + 0.5) / 2e-5)));
     }
-    d.scene.depth = Box<DepthMap>(DepthMap{Image<std::uint16_t>(kSmall, 1, std::move(raw)), 0.02_mm});
+    d.scene.depth = Box<DepthMap>(depthOf(Image<std::uint16_t>(kSmall, 1, std::move(raw)), 0.02_mm));
     return withBackground(std::move(d), FromDepthMap{});
 }
 

@@ -1,0 +1,19 @@
+// What is known of the errors of a document's seams, in place of what is assumed.
+#pragma once
+
+#include "core/document/document.h"
+#include "core/perceived/seam_robustness.h"
+#include "core/plan/plan.h"
+
+namespace ilf {
+
+/// The assumed errors, with what is known instead: `registration` is the residual of the rig's registration, cast onto
+/// the farthest surface of the plan, twice it the coarse one; `nearer` and `farther` are at least two standard
+/// deviations of the least certain distance. The feather that seams suggest follows from them (scheduling 4.3).
+/// `plan` is the document's.
+SeamErrors knownErrors(const Document& document, const Plan& plan);
+
+/// A length of `px` projector pixels on a surface at `distance`, in the middle of the picture.
+Metre onSurface(const Document& document, double px, Metre distance);
+
+}  // namespace ilf
