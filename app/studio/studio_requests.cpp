@@ -217,7 +217,7 @@ void Studio::on(const ui::LoadDepthMap& request) {
                        "x" + std::to_string(scene.size().height) + ": they must agree.",
                    ui::Tone::error);
     }
-    scene.depth = Box(DepthMap{*std::move(raw), request.metresPerUnit});
+    scene.depth = Box(depthOf(*raw, request.metresPerUnit));
     edit(SetScene{std::move(scene)});
 }
 
