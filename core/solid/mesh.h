@@ -13,8 +13,10 @@ namespace ilf {
 
 /// A surface's look: what of the light it gives back, without shine.
 struct Material {
+    enum class Wrap { repeat, mirror, clamp };      ///< what a texture shows outside 0..1
     std::array<float, 3> colour{0.8F, 0.8F, 0.8F};  ///< linear, 0..1; multiplies the texture
     Image<std::uint8_t> texture;                    ///< RGB, sRGB-encoded; may be empty
+    std::array<Wrap, 2> wrap{};                     ///< to the right, downwards
     bool doubleSided = false;
     bool operator==(const Material&) const = default;
 };
@@ -24,7 +26,7 @@ struct Mesh {
     std::string name;
     std::vector<std::array<float, 3>> positions;
     std::vector<std::array<float, 3>> normals;         ///< empty, or one a position
-    std::vector<std::array<float, 2>> texcoords;       ///< empty, or one a position
+    std::vector<std::array<float, 2>> texcoords;       ///< empty, or one a position: (0, 0) is the texture's upper left
     std::vector<std::array<std::uint8_t, 3>> colours;  ///< empty, or one a position: multiply the material's, linear
     std::vector<std::array<std::uint32_t, 3>> triangles;
     int material = -1;  ///< index, or -1: plain grey
