@@ -26,6 +26,8 @@ private:
     Conversation& board_;
 };
 
+bool comesIn(Source source) { return source == Source::parallel || source == Source::fpdLink; }
+
 void append(std::vector<std::string>& to, std::vector<std::string> more) {
     to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
@@ -66,25 +68,32 @@ Result<Findings> LightCrafter::findings() {
     found.run = *run;
     if (found.display == Display::pattern) return found;
 
+    const auto input = board_.ask<InputSource>();
+    if (!input) return tl::unexpected(input.error());
+    found.source = input->source;
+    if (!comesIn(found.source)) {
+        found.remarks.push_back("It shows " + inWords(*input) +
+                                " instead of video, as it does where its display was "
+                                "lost; the next TAKE goes back to video.");
+        return found;
+    }
     const auto video = board_.ask<VideoSignal>();
     if (!video) return tl::unexpected(video.error());
     found.video = *video;
-    if (const auto usable = usableVideo(); !usable) found.troubles.push_back(usable.error().what);
+    if (const auto usable = usableVideo(*video); !usable) found.troubles.push_back(usable.error().what);
     return found;
 }
 
-Result<VideoSignal> LightCrafter::usableVideo() {
-    auto video = board_.ask<VideoSignal>();
-    if (!video) return video;
+Result<VideoSignal> LightCrafter::usableVideo(const VideoSignal& video) const {
     const std::string wanted = std::to_string(bringUp_.raster.width) + "x" + std::to_string(bringUp_.raster.height);
-    if (!video->locked)
+    if (!video.locked)
         return tl::unexpected(about("has locked on no picture at its HDMI input. Check the cable, and that its display "
                                     "is switched on with exactly " +
                                     wanted + "."));
-    if (video->width != bringUp_.raster.width || video->height != bringUp_.raster.height)
-        return tl::unexpected(about("gets " + inWords(*video) + "; slots are shown right only at exactly " + wanted +
+    if (video.width != bringUp_.raster.width || video.height != bringUp_.raster.height)
+        return tl::unexpected(about("gets " + inWords(video) + "; slots are shown right only at exactly " + wanted +
                                     ". Set that mode for its display."));
-    if (video->refresh <= 0.0_Hz)
+    if (video.refresh <= 0.0_Hz)
         return tl::unexpected(about("does not say how fast its video comes. Unplug the video and plug it in again."));
     return video;
 }
@@ -93,17 +102,23 @@ Result<VideoSignal> LightCrafter::measuredVideo() {
     const auto display = board_.ask<Display>();
     if (!display) return tl::unexpected(display.error());
     if (*display == Display::pattern) return video_ ? Result<VideoSignal>(*video_) : videoAfterSwitching();
-    auto video = usableVideo();
-    if (video) video_ = *video;
-    return video;
+    if (const auto ok = chooseVideo(); !ok) return tl::unexpected(ok.error());
+    return lockedVideo();
 }
 
 Result<VideoSignal> LightCrafter::videoAfterSwitching() {
     if (const auto ok = showVideo(); !ok) return tl::unexpected(ok.error());
+    return lockedVideo();
+}
+
+/// Locking takes a while after video or its choice changed.
+Result<VideoSignal> LightCrafter::lockedVideo() {
     for (int polls = 0;; ++polls) {
-        auto video = usableVideo();
-        if (video) video_ = *video;
-        if (video || polls == kMostPolls) return video;
+        const auto video = board_.ask<VideoSignal>();
+        if (!video) return video;
+        auto usable = usableVideo(*video);
+        if (usable) video_ = *usable;
+        if (usable || polls == kMostPolls) return usable;
         wait(kPollPause);
     }
 }
@@ -138,10 +153,46 @@ Result<void> LightCrafter::setDisplay(Display display, const Patience& patience)
     return tl::unexpected(mismatch<Display>(name(), display, *before));
 }
 
+/// Back from a picture of the board's own. Which port video comes in at is its wiring, and left.
+Result<void> LightCrafter::chooseVideo() {
+    const auto found = board_.ask<InputSource>();
+    if (!found) return tl::unexpected(found.error());
+    if (comesIn(found->source)) return {};
+    forgetVideo();
+    return set(InputSource{Source::parallel, found->width});
+}
+
 Result<void> LightCrafter::showVideo(const Patience& patience) {
     if (const auto ok = stop(patience); !ok) return ok;
     wait(twoFrames());  // it says "stopped" before its last frame ends, and takes no change until then
-    return setDisplay(Display::video, patience);
+    if (const auto ok = setDisplay(Display::video, patience); !ok) return ok;
+    const Patiently waits(board_, patience);
+    return chooseVideo();
+}
+
+Result<void> LightCrafter::showOwnWhite(const Patience& patience) {
+    if (const auto ok = stop(patience); !ok) return ok;
+    wait(twoFrames());
+    if (const auto ok = setDisplay(Display::video, patience); !ok) return ok;
+    const Patiently waits(board_, patience);
+    // Before it is chosen, so that its first light is white.
+    if (const auto ok = madeSure(kTestWhite); !ok) return ok;
+    if (const auto ok = madeSure(TestPattern::solid); !ok) return ok;
+    const auto before = board_.ask<InputSource>();
+    if (!before) return tl::unexpected(before.error());
+    if (before->source == Source::testPattern) return {};
+    forgetVideo();
+    return set(InputSource{Source::testPattern, before->width});
+}
+
+Result<bool> LightCrafter::seesVideo(const Patience& patience) {
+    const Patiently waits(board_, patience);
+    for (int polls = 0;; ++polls) {
+        const auto video = board_.ask<VideoSignal>();
+        if (!video) return tl::unexpected(video.error());
+        if (video->locked || polls >= patience.polls) return video->locked;
+        wait(kPollPause);
+    }
 }
 
 Result<Watched> LightCrafter::watch() {
@@ -156,9 +207,14 @@ Result<Watched> LightCrafter::watch() {
     if (!status) return tl::unexpected(status.error());
     const auto hardware = board_.ask<HardwareStatus>();
     if (!hardware) return tl::unexpected(hardware.error());
+    Watched seen;
+    seen.display = *display;
+    seen.run = *run;
+    seen.flips = watched_.flips;
+    seen.troubles = troubles(*hardware);
+    if (*display == Display::video)
+        if (const auto ok = watchInput(seen); !ok) return tl::unexpected(ok.error());
     askedAt_ = now;
-
-    Watched seen{*display, *run, false, watched_.flips, troubles(*hardware)};
     append(seen.troubles, troubles(*status));
     if (toldToRun_ && *display == Display::video) {
         // The board's own controller does this whenever an HDMI source appears (operators R12).
@@ -175,6 +231,17 @@ Result<Watched> LightCrafter::watch() {
     seen.playing = toldToRun_ && seen.troubles.empty();
     watched_ = seen;
     return seen;
+}
+
+Result<void> LightCrafter::watchInput(Watched& seen) {
+    const auto input = board_.ask<InputSource>();
+    if (!input) return tl::unexpected(input.error());
+    seen.source = input->source;
+    if (!comesIn(seen.source)) return {};
+    const auto video = board_.ask<VideoSignal>();
+    if (!video) return tl::unexpected(video.error());
+    seen.seesVideo = video->locked;
+    return {};
 }
 
 Error LightCrafter::stoppedAfter(const Error& error) {

@@ -11,6 +11,7 @@
 #include "core/base/geometry.h"
 #include "devices/clock.h"
 #include "devices/dlpc350/conversation.h"
+#include "devices/dlpc350/input_source.h"
 #include "devices/dlpc350/sequence.h"
 
 namespace ilf::devices::dlpc350 {
@@ -30,7 +31,8 @@ struct Findings {
     std::string firmwareTag;
     Display display = Display::video;
     PatternRun run = PatternRun::stopped;
-    VideoSignal video;                  ///< means nothing while `display` is pattern
+    Source source = Source::parallel;   ///< of plain video
+    VideoSignal video;                  ///< means nothing while `display` is pattern or another source is shown
     std::vector<std::string> troubles;  ///< what is wrong, and what would help
     std::vector<std::string> remarks;   ///< what is worth knowing
 };
@@ -45,6 +47,8 @@ struct Started {
 struct Watched {
     Display display = Display::video;
     PatternRun run = PatternRun::stopped;
+    Source source = Source::parallel;   ///< what it shows while `display` is video
+    bool seesVideo = true;              ///< false: it is to show video that comes in, and there is none
     bool playing = false;               ///< patterns run, and nothing is wrong with them
     int flips = 0;                      ///< how often the board left pattern mode by itself
     std::vector<std::string> troubles;  ///< what is wrong, and what would help
@@ -73,7 +77,7 @@ public:
 
     /// The video that arrives, locked and of the raster's size, or why it cannot be used. In pattern mode the board
     /// cannot tell, so that what was measured last is returned; if nothing was, patterns are stopped and the board is
-    /// switched to video to measure.
+    /// switched to video to measure. A board that shows a picture of its own is switched to what comes in.
     Result<VideoSignal> measuredVideo();
     /// The video may be another one now (the output was unplugged or its mode changed): measure it again next time.
     void forgetVideo() { video_.reset(); }
@@ -86,6 +90,11 @@ public:
     /// Patterns stopped and plain video shown, every pixel of it all the time: what steady white light needs of the
     /// board. Firmware 4 was seen to hang when switched to and fro some dozen times, so never in a loop.
     Result<void> showVideo(const Patience& patience = {});
+    /// Patterns stopped and the board's own test pattern shown, white everywhere: needs no video. Settings that are so
+    /// already are left, so that it may be told again and again.
+    Result<void> showOwnWhite(const Patience& patience = {});
+    /// Whether video comes in, while it is shown; waited for as long as `patience` polls.
+    Result<bool> seesVideo(const Patience& patience = {});
 
     /// Asks the board at most once a second, since asking disturbs patterns; in between, what it saw last. A board that
     /// is silent for half a second is an error.
@@ -101,9 +110,15 @@ private:
     /// Tells a setting and compares what the board then says it is.
     template <class T>
     Result<void> set(const T& value);
+    /// The same, where the board does not say that it is so already.
+    template <class T>
+    Result<void> madeSure(const T& value);
     Result<void> setDisplay(Display display, const Patience& patience = {});
-    Result<VideoSignal> usableVideo();
+    Result<VideoSignal> usableVideo(const VideoSignal& video) const;
     Result<VideoSignal> videoAfterSwitching();
+    Result<VideoSignal> lockedVideo();
+    Result<void> chooseVideo();
+    Result<void> watchInput(Watched& seen);
     Result<Started> arranged(const PatternSequence& sequence, const VideoSignal& video);
     Result<void> setTimes(const PatternSequence& sequence);
     Result<void> setTable(const PatternSequence& sequence);

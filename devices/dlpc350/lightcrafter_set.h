@@ -20,4 +20,10 @@ Result<void> LightCrafter::set(const T& value) {
     return {};
 }
 
+template <class T>
+Result<void> LightCrafter::madeSure(const T& value) {
+    const auto found = board_.ask<T>();
+    return found && *found == value ? Result<void>{} : set(value);
+}
+
 }  // namespace ilf::devices::dlpc350

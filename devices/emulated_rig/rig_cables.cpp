@@ -92,11 +92,25 @@ void RigCables::sync(emulators::FramePtr frame, std::int64_t due_ns) {
         hearTriggers(due_ns);
         for (; !onTheWire_.empty() && onTheWire_.front().time_ns < due_ns - kWireRemembers_ns; onTheWire_.pop_front())
             triggerHigh_ = onTheWire_.front().high;
-        for (auto& slot : projector_.takeLight(due_ns))
-            sweeps_.light(std::move(slot));
-        sweeps_.sync(due_ns);
+        takeLight(due_ns);
+        if (!projector_.draws(due_ns)) sweeps_.sync(due_ns);
         moveLenses(now_ns);
     });
+}
+
+void RigCables::withoutVideo() {
+    bus_->locked([&](std::int64_t now_ns) {
+        takeLight(now_ns);
+        moveLenses(now_ns);
+    });
+}
+
+/// A picture of the board's own is a sweep of its own.
+void RigCables::takeLight(std::int64_t now_ns) {
+    for (auto& slot : projector_.takeLight(now_ns)) {
+        if (slot.drawn) sweeps_.sync(slot.end_ns);
+        sweeps_.light(std::move(slot));
+    }
 }
 
 void RigCables::moveLenses(std::int64_t now_ns) {

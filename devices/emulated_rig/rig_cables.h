@@ -35,6 +35,8 @@ public:
     /// A vertical sync that was due at `due_ns`; `frame` begins to come in. Told late, it is no less on time: light and
     /// triggers follow from `due_ns`, and the converter samples no further than that.
     void sync(emulators::FramePtr frame, std::int64_t due_ns);
+    /// Time goes on where no video comes: what the projector shows by itself is taken.
+    void withoutVideo();
 
     /// See RigMishap, for the projector and the lenses.
     Result<void> befall(const RigMishap& mishap);
@@ -47,6 +49,7 @@ private:
     void wire();
     double inputVolts(int channel, std::int64_t time_ns);
     void hearTriggers(std::int64_t now_ns);
+    void takeLight(std::int64_t now_ns);
     void moveLenses(std::int64_t now_ns);
 
     std::unique_ptr<emulators::UsbHost> bus_;

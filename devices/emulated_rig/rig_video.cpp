@@ -45,7 +45,10 @@ void RigVideo::run(const std::stop_token& stop) {
         sleepUntil(due() - kTakenBefore_ns);
         const auto frame = picture();
         sleepUntil(due());
-        if (frame) cables_.sync(frame, due());
+        if (frame)
+            cables_.sync(frame, due());
+        else
+            cables_.withoutVideo();
     }
 }
 

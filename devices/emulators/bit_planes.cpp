@@ -29,12 +29,18 @@ struct Source {
         const std::uint32_t green = rgb[slot.mirrors.swapsChannels ? 0 : 1];
         return green | red << 8U | std::uint32_t(rgb[2]) << 16U;
     }
-    std::uint8_t grey(std::size_t pixel) const {
+    int sum(std::size_t pixel) const {
         const std::uint8_t* rgb = slot.frame->rgb.data() + pixel;
-        const double mean = (rgb[0] + rgb[1] + rgb[2]) / (3.0 * 255.0);
-        return static_cast<std::uint8_t>(std::lround(255.0 * std::pow(mean, slot.gamma)));
+        return rgb[0] + rgb[1] + rgb[2];
     }
 };
+
+constexpr int kFullSum = 3 * 255;
+
+/// The light of three colours' sum as video.
+std::uint8_t greyOf(int sum, double gamma) {
+    return static_cast<std::uint8_t>(std::lround(255.0 * std::pow(double(sum) / kFullSum, gamma)));
+}
 
 /// The code of every mirror, or nothing where it depends on the frame.
 std::optional<int> uniform(const LightSlot& slot) {
@@ -50,7 +56,6 @@ std::optional<int> uniform(const LightSlot& slot) {
 }
 
 std::uint8_t codeOf(const LightSlot& slot, const Source& source, std::size_t pixel, unsigned lowest, unsigned mask) {
-    if (slot.video) return source.grey(pixel);
     const std::uint32_t code = source.planes(pixel) >> lowest & mask;
     return static_cast<std::uint8_t>(slot.inverted ? mask - code : code);
 }
@@ -93,6 +98,7 @@ int LightSlot::codeAt(int column, int row) const {
     assert(column >= 0 && column < kMirrorColumns && row >= 0 && row < kMirrorRows);
     if (const auto code = uniform(*this)) return *code;
     const Source source{*this};
+    if (video) return greyOf(source.sum(source.at(column, row)), gamma);
     const auto lowest = static_cast<unsigned>(lowestPlane(depth, pattern).value_or(0));
     return codeOf(*this, source, source.at(column, row), lowest, static_cast<unsigned>(full()));
 }
@@ -106,10 +112,14 @@ std::vector<std::uint8_t> LightSlot::codes() const {
     const Source source{*this};
     const auto lowest = static_cast<unsigned>(lowestPlane(depth, pattern).value_or(0));
     const auto mask = static_cast<unsigned>(full());
+    std::vector<std::uint8_t> greys;
+    for (int sum = 0; video && sum <= kFullSum; ++sum)
+        greys.push_back(greyOf(sum, gamma));
     std::size_t next = 0;
     for (int row = 0; row < kMirrorRows; ++row)
         for (int column = 0; column < kMirrorColumns; ++column)
-            made[next++] = codeOf(*this, source, source.at(column, row), lowest, mask);
+            made[next++] = video ? greys[std::size_t(source.sum(source.at(column, row)))]
+                                 : codeOf(*this, source, source.at(column, row), lowest, mask);
     return made;
 }
 

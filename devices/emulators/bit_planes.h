@@ -40,6 +40,7 @@ struct LightSlot {
     bool inverted = false;
     std::uint8_t leds = 7;  ///< bit 0 red, 1 green, 2 blue; 0: dark
     bool video = false;     ///< video mode: the frame as a picture, grey of its three colours
+    bool drawn = false;     ///< in video mode: a picture of the board's own, at its own pace
     double gamma = 1.0;     ///< of video mode
     MirrorSettings mirrors;
     FramePtr frame;  ///< none: black

@@ -50,6 +50,7 @@ void EmulatedLightCrafter::reset() {
     ignoredStart_ns_.reset();
     stopBy_ns_.reset();
     slot_.reset();
+    drawn_ = nullptr;
     backOnBus_ns_.reset();
     deafUntil_ns_ = 0;
 }
@@ -228,10 +229,17 @@ bool EmulatedLightCrafter::write(unsigned command, std::span<const std::uint8_t>
     case 0x1A40:
         changesSequence();
         break;
+    case 0x1A00:
+        if (input() != (first & 7U)) inputChanged(now_ns);
+        break;
     default:
         break;
     }
+    const bool drawsOtherwise = (command == 0x1A00 || command == 0x1203 || command == 0x1204) &&
+                                !std::ranges::equal(payload, registers_[command]);
+    if (drawsOtherwise) endDrawing(now_ns);
     std::copy(payload.begin(), payload.end(), registers_[command].begin());
+    if (drawsOtherwise) draw(now_ns);
     return true;
 }
 
@@ -280,7 +288,7 @@ std::optional<Bytes> EmulatedLightCrafter::read(unsigned command, std::int64_t n
         return tag;
     }
     case 0x1A0A: {
-        const bool starved = running_ && !source_ && byteOf(0x1A22) == 0;
+        const bool starved = running_ && (!source_ || input() != 0) && byteOf(0x1A22) == 0;
         return Bytes{static_cast<std::uint8_t>(1U | (forcedSwap_ ? 8U : 0U) | (starved ? 0x40U : 0U))};
     }
     case 0x1A0B:
@@ -318,7 +326,7 @@ std::optional<Bytes> EmulatedLightCrafter::read(unsigned command, std::int64_t n
 Bytes EmulatedLightCrafter::videoStatus(std::int64_t now_ns) const {
     Bytes status(28);
     if (!source_) return status;
-    if (patternMode(now_ns) || now_ns - pluggedAt_ns_ < options_.lock_ns) {
+    if (patternMode(now_ns) || input() != 0 || now_ns - pluggedAt_ns_ < options_.lock_ns) {
         status[0] = 1;
         return status;
     }
@@ -383,6 +391,10 @@ void EmulatedLightCrafter::showVideo(std::int64_t now_ns) {
 void EmulatedLightCrafter::plugVideo(const VideoSource& source, std::int64_t now_ns) {
     advance(now_ns);
     showVideo(now_ns);
+    if (options_.quirks.plugSelectsVideo) {
+        endDrawing(now_ns);
+        registers_[0x1A00][0] &= 0xF8U;
+    }
     source_ = source;
     pluggedAt_ns_ = now_ns;
     arriving_ = arrived_ = nullptr;

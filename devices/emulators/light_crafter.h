@@ -21,6 +21,7 @@ struct LightCrafterQuirks {
     bool swapsWithoutBit = false;  ///< the first entry of a sequence swaps buffers even without its bit
     int togglesUntilHang = 25;     ///< switches from pattern to video with a source plugged; 0: never hangs
     std::uint8_t triggerPolarityBit = 0x02;  ///< of TRIG_OUT_1 and 2; others say 0x01
+    bool plugSelectsVideo = true;            ///< a source that appears is shown instead of a picture of the board's own
 };
 
 struct LightCrafterOptions {
@@ -86,6 +87,8 @@ public:
     std::int64_t knownUntil(std::int64_t now_ns) const;
     bool patternMode(std::int64_t now_ns) const;
     bool running() const { return running_; }
+    /// It shows a test pattern, which needs no video.
+    bool draws(std::int64_t now_ns) const { return !patternMode(now_ns) && input() == 1; }
     /// A command that erases or bricks the projector, or a LED current, has come in (devices.md 1.3: never).
     bool harmed() const { return harmed_; }
     int ledCurrentWrites() const { return ledCurrentWrites_; }
@@ -116,6 +119,13 @@ private:
     std::uint8_t byteOf(unsigned command) const { return registers_.at(command)[0]; }
     std::uint32_t numberOf(unsigned command, std::size_t offset) const;
 
+    // light_crafter_test_pattern.cpp: pictures of its own
+    unsigned input() const { return byteOf(0x1A00) & 7U; }
+    void draw(std::int64_t now_ns);
+    void endDrawing(std::int64_t now_ns);
+    void inputChanged(std::int64_t now_ns);
+    FramePtr testPicture() const;
+
     // light_crafter_sequence.cpp: the LUT and what it makes of the frames
     std::vector<Entry> sequence() const;
     Entry decoded(const std::uint8_t* bytes, std::uint32_t exposure_us, std::uint32_t period_us) const;
@@ -127,6 +137,7 @@ private:
     void triggered(std::int64_t now_ns);
     void stopSequence(std::int64_t now_ns);
     void emit(LightSlot slot);
+    LightSlot videoSlot(std::int64_t start_ns, std::int64_t end_ns, FramePtr frame) const;
     std::uint8_t ledsFor(std::uint8_t wanted) const;
     MirrorSettings mirrors() const;
     std::int64_t own_ns(std::int64_t nominal_ns) const;
@@ -166,6 +177,8 @@ private:
     std::uint64_t arrivingNumber_ = 0, arrivedNumber_ = 0, shownNumber_ = 0;
     std::optional<std::int64_t> lastSync_ns_;
     std::optional<std::int64_t> videoFrom_ns_;  ///< the last sync, where it found video mode
+    FramePtr drawn_;
+    std::int64_t drawnUntil_ns_ = 0;  ///< while there is `drawn_`
     bool running_ = false, waiting_ = false, forcedSwap_ = false;
     std::optional<std::int64_t> stopBy_ns_;
     std::vector<Entry> playing_;

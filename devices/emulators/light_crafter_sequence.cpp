@@ -129,8 +129,21 @@ void EmulatedLightCrafter::emit(LightSlot slot) {
         light_.pop_front();
 }
 
+LightSlot EmulatedLightCrafter::videoSlot(std::int64_t start_ns, std::int64_t end_ns, FramePtr frame) const {
+    LightSlot slot;
+    slot.start_ns = start_ns;
+    slot.end_ns = end_ns;
+    slot.video = true;
+    slot.gamma = (byteOf(0x1A0E) & 0x80U) != 0 ? 2.2 : 1.0;  // the curve of its table 0 is not known
+    slot.leds = ledsFor(7);
+    slot.mirrors = mirrors();
+    slot.frame = std::move(frame);
+    return slot;
+}
+
 /// Plays entries until `now_ns` or until one waits for its trigger.
 void EmulatedLightCrafter::advance(std::int64_t now_ns) {
+    draw(now_ns);
     while (running_) {
         const std::int64_t next = slot_ ? slot_->end_ns : waiting_ ? now_ns + 1 : freeAt_ns_;
         if (stopBy_ns_ && *stopBy_ns_ <= std::min(next, now_ns)) return stopSequence(*stopBy_ns_);
@@ -209,7 +222,7 @@ void EmulatedLightCrafter::triggered(std::int64_t now_ns) {
 
 void EmulatedLightCrafter::verticalSync(FramePtr frame, std::int64_t now_ns) {
     advance(now_ns);
-    if (!source_) return;
+    if (!source_ || input() != 0) return;  // not plugged, or not looked at
     arrived_ = std::move(arriving_);
     arrivedNumber_ = arrivingNumber_++;
     arriving_ = std::move(frame);
@@ -217,14 +230,7 @@ void EmulatedLightCrafter::verticalSync(FramePtr frame, std::int64_t now_ns) {
 
     if (!patternMode(now_ns)) {
         if (videoFrom_ns_) {
-            LightSlot slot;
-            slot.start_ns = *videoFrom_ns_;
-            slot.end_ns = now_ns;
-            slot.video = true;
-            slot.gamma = (byteOf(0x1A0E) & 0x80U) != 0 ? 2.2 : 1.0;  // the curve of its table 0 is not known
-            slot.leds = ledsFor(7);
-            slot.mirrors = mirrors();
-            slot.frame = shown_;
+            LightSlot slot = videoSlot(*videoFrom_ns_, now_ns, shown_);
             slot.frameNumber = shownNumber_;
             emit(std::move(slot));
         }

@@ -59,6 +59,7 @@ Result<void> LightCrafterStage::began() {
     }
     if (auto there = reached(program.waveform.rest); !there) return there;
     safeTold_ = false;
+    if (auto back = backToVideo(); !back) return back;
     if (auto well = videoWell(); !well) return well;
     const double off = mode_.refresh / program.waveform.rate - 1.0;
     if (mode_.refresh > 0.0_Hz && std::abs(off) > kMostOff)

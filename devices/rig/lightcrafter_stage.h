@@ -41,9 +41,11 @@ struct LightCrafterRig {
 /// its patterns (about half a second, its documents say no more); that cannot be helped over USB.
 ///
 /// Any error of a device ends in safe light before it is returned, and only a new `load` and `swap` lights slots
-/// again. The lenses go to rest as soon as the light is white, or was asked to be; a silent board keeps them from it
-/// for 0.2 s at most, and only where the display is lost as well. A device whose safe state could not be told is let go
-/// and opened again, at most once a second, by `heartbeat` and `safeLight`, which then tell it.
+/// again. Safe light is white video, or, where the display is lost or the board says that no video comes in, white that
+/// the board makes itself. That stays until the next program: going back, the board has to lock on its video first, and
+/// is dark for a moment. The lenses go to rest as soon as the light is white, or was asked to be; a silent board keeps
+/// them from it for 0.2 s at most, and only where the display is lost as well. A device whose safe state could not be
+/// told is let go and opened again, at most once a second, by `heartbeat` and `safeLight`, which then tell it.
 class LightCrafterStage : public Stage {
 public:
     explicit LightCrafterStage(LightCrafterRig rig) : rig_(std::move(rig)), rest_(rig_.rest) {}
@@ -100,7 +102,8 @@ private:
     Result<void> reachedAgain();
     void makeSafe(Waiting waiting);
     Result<void> madeWhite();
-    Result<void> boardShowsVideo(Waiting waiting);
+    Result<void> boardIsPlain(bool videoIsWhite, Waiting waiting);
+    Result<void> backToVideo();
     std::string projectorLine() const;
     std::string lensLine() const;
     std::string phaseWords() const;
@@ -117,6 +120,7 @@ private:
     std::optional<std::chrono::nanoseconds> triedAt_;
 
     Light light_ = Light::unknown;
+    bool ownWhite_ = false;             ///< the board was told to show it, whatever became of that
     bool safeTold_ = false;             ///< to all that can be reached, and nothing else since
     std::optional<Error> safeTrouble_;  ///< what first did not listen then
     bool lensFailed_ = false;           ///< it must be opened anew once it rests

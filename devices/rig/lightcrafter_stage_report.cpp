@@ -7,8 +7,6 @@
 #include "devices/rig/lightcrafter_stage.h"
 
 namespace ilf::devices {
-namespace {}  // namespace
-
 void LightCrafterStage::Known::answered(const std::string& called) {
     ever = true;
     name = called;
@@ -68,12 +66,15 @@ std::string LightCrafterStage::projectorLine() const {
     const std::string board = projector_ ? projector_->name() : "LightCrafter 4500";
     if (!projector_)
         return board + ": no answer" + (videoThere_ ? ", it is sent white; " : "; ") + "its light is not known";
-    if (!videoThere_)
-        return board + ": its display " + rig_.video->display().connector + " is gone; its light is not known";
-    if (light_ == Light::slotted)
-        return board + ": " + std::to_string(running_ ? running_->entries.size() : 0) + " slots at " +
-               asText("%.2f Hz", mode_.refresh.si());
-    return board + (light_ == Light::white ? ": steady white" : ": its light is not known");
+    const std::string light = light_ != Light::white ? "its light is not known"
+                              : ownWhite_            ? "steady white of its own"
+                                                     : "steady white";
+    if (!videoThere_) return board + ": its display " + rig_.video->display().connector + " is gone; " + light;
+    if (light_ != Light::slotted) return board + ": " + light;
+    // Where the display's rate is not measured, it is taken for what the sweep was planned for.
+    const Hertz rate = mode_.refresh > 0.0_Hz || !told_ ? mode_.refresh : told_->rate;
+    return board + ": " + std::to_string(running_ ? running_->entries.size() : 0) + " slots at " +
+           asText("%.2f Hz", rate.si());
 }
 
 std::string LightCrafterStage::phaseWords() const {
@@ -100,13 +101,16 @@ std::vector<DeviceLine> LightCrafterStage::deviceLines() const {
     const bool slotted = light_ == Light::slotted;
     const std::string projector =
         slotted ? "It shows " + std::to_string(running_ ? running_->entries.size() : 0) + " slots a sweep."
+        : ownWhite_ && light_ == Light::white
+            ? "It shows steady white light of its own, without video; TAKE plays the slots."
         : light_ == Light::white ? "It shows steady white light; TAKE plays the slots."
                                  : "It was told to show plain video; its light is not known.";
 
     const std::string connector = rig_.video->display().connector;
     std::string display = slotted ? "It carries the slots" : "It carries white";
     display += ", " + std::to_string(mode_.size.width) + "x" + std::to_string(mode_.size.height);
-    if (mode_.refresh > 0.0_Hz) display += " at " + ilf::inWords(mode_.refresh.si(), 2) + " Hz";
+    display += mode_.refresh > 0.0_Hz ? " at " + ilf::inWords(mode_.refresh.si(), 2) + " Hz"
+                                      : "; how often a second is not measured";
 
     std::string lenses = "They rest at " + ilf::inWords(rest_) + "; TAKE plays the sweep.";
     if (told_) {

@@ -7,6 +7,7 @@
 #include "core/plan/words.h"
 #include "devices/rig/lightcrafter_stage.h"
 #include "devices/simulated/simulated_stage.h"  // the budgets, which are the same
+#include "devices/video/found_display.h"
 
 namespace ilf::devices {
 namespace {
@@ -16,6 +17,14 @@ using namespace std::chrono_literals;
 constexpr std::chrono::nanoseconds kTryEvery = 1s;
 // The phase's worst error covers two seconds, at first those in which it was being aligned.
 constexpr std::chrono::nanoseconds kPhaseMemory = 2100ms;
+constexpr const char* kNoVideo =
+    "The projector gets no video although its display is there; check the video cable at the projector's end, then "
+    "TAKE.";
+
+/// Emulated displays, and some adapters, say nothing of themselves.
+std::string called(const DisplayIdentity& display) {
+    return display.maker.empty() && display.model.empty() ? display.connector + " (unnamed)" : displayName(display);
+}
 
 }  // namespace
 
@@ -39,6 +48,15 @@ Result<void> LightCrafterStage::projectorWell() {
     if (!running_ && (seen->display != dlpc350::Display::video || seen->run == dlpc350::PatternRun::running))
         return wrong("The projector shows patterns although it was told plain video; close other programs that use "
                      "it.");
+    if (running_) return {};
+    const bool own = seen->source == dlpc350::Source::testPattern;
+    if (ownWhite_ && !own)
+        return wrong("The projector left its own white by itself, as it may when its video comes back; press TAKE to "
+                     "start the slots again.");
+    if (!ownWhite_ && (own || seen->source == dlpc350::Source::flash))
+        return wrong("The projector shows a picture of its own although it was told plain video; close other programs "
+                     "that use it.");
+    if (!seen->seesVideo) return wrong(kNoVideo);
     return {};
 }
 
@@ -150,20 +168,47 @@ Result<void> LightCrafterStage::madeWhite() {
     if (mode) mode_ = *mode;
     if (mode && white_.size() != mode->size) white_ = uniformFrame(mode->size, 255);
     if (const auto white = lit(white_); !white) return tl::unexpected(white.error());
-    displayKnown_.answered(rig_.video->display().connector);
+    displayKnown_.answered(called(rig_.video->display()));
     return {};
 }
 
-Result<void> LightCrafterStage::boardShowsVideo(Waiting waiting) {
+/// No patterns, but white: its video where that is white and comes in, else its own.
+Result<void> LightCrafterStage::boardIsPlain(bool videoIsWhite, Waiting waiting) {
     if (!projector_) return {};
-    if (const auto told = projector_->showVideo(waiting); !told) return projectorKnown_.lost(told.error());
+    if (videoIsWhite && !ownWhite_) {
+        if (const auto told = projector_->showVideo(waiting); !told) return projectorKnown_.lost(told.error());
+        const auto sees = projector_->seesVideo();
+        if (!sees) return projectorKnown_.lost(sees.error());
+        projectorKnown_.answered(projector_->name());
+        if (*sees) return {};
+        (void)projectorKnown_.wrong({Fault::device, kNoVideo});
+    }
+    ownWhite_ = true;
+    if (const auto told = projector_->showOwnWhite(waiting); !told) return projectorKnown_.lost(told.error());
     projectorKnown_.answered(projector_->name());
     return {};
 }
 
+/// From the board's own white to white video; the board is dark until it has locked on it. After an error its own white
+/// is told again.
+Result<void> LightCrafterStage::backToVideo() {
+    if (!ownWhite_) return {};
+    if (auto white = madeWhite(); !white) return white;
+    videoThere_ = true;
+    light_ = Light::unknown;
+    if (const auto told = projector_->showVideo(Waiting::patient); !told) return projectorKnown_.lost(told.error());
+    const auto sees = projector_->seesVideo();
+    if (!sees) return projectorKnown_.lost(sees.error());
+    if (!*sees) return projectorKnown_.wrong({Fault::device, kNoVideo});
+    ownWhite_ = false;
+    light_ = Light::white;
+    return {};
+}
+
 /// Light comes before the lens, since slots seen through a lens at rest are not what anybody planned: white video is
-/// uniform light in patterns too, even if the board does not listen. Only where that cannot be shown is the board asked
-/// first, briefly. Each is told even if the one before could not be; what does not listen is let go.
+/// uniform light in patterns too, even if the board does not listen. Only where that cannot be shown is the board told
+/// first, briefly, to make white itself. Each is told even if the one before could not be; what does not listen is let
+/// go.
 void LightCrafterStage::makeSafe(Waiting waiting) {
     safeTrouble_.reset();
     const auto listened = [&](const auto& told) {
@@ -172,7 +217,7 @@ void LightCrafterStage::makeSafe(Waiting waiting) {
     };
     const bool white = videoThere_ && listened(madeWhite());
     videoThere_ = white;
-    bool video = !white && boardShowsVideo(Waiting::brief).has_value();
+    bool plain = !white && boardIsPlain(false, Waiting::brief).has_value();
 
     // Lenses that were let go at rest stay there.
     if (lens_) {
@@ -187,10 +232,10 @@ void LightCrafterStage::makeSafe(Waiting waiting) {
     told_.reset();
     phase_.reset();
 
-    if (!video && (white || waiting == Waiting::patient)) video = listened(boardShowsVideo(waiting));
-    if (!video) projector_.reset();
+    if (!plain && (white || waiting == Waiting::patient)) plain = listened(boardIsPlain(white, waiting));
+    if (!plain) projector_.reset();
     const bool slotsMayBeOn = light_ == Light::slotted && !white && !projector_;
-    light_ = white && projector_ ? Light::white : slotsMayBeOn ? Light::slotted : Light::unknown;
+    light_ = projector_ ? Light::white : slotsMayBeOn ? Light::slotted : Light::unknown;
     running_.reset();
     safeTold_ = true;
 }
@@ -203,7 +248,10 @@ tl::unexpected<Error> LightCrafterStage::lensFailed(const Error& error) {
 tl::unexpected<Error> LightCrafterStage::faulted(Error error) {
     loaded_.reset();  // a bare swap must not light again what has just failed
     safeLight();
-    if (light_ != Light::white) error.what += " The projector's light is not known.";
+    if (light_ != Light::white)
+        error.what += " The projector's light is not known.";
+    else if (ownWhite_)
+        error.what += " The projector shows its own white.";
     if (!resting_) error.what += " Where the lens is, is not known.";
     return tl::unexpected<Error>(std::move(error));
 }

@@ -18,6 +18,7 @@ void judged(Attached& device) { device.state = device.troubles.empty() ? DeviceS
 
 std::string modeOf(const dlpc350::Findings& found) {
     if (found.display == dlpc350::Display::pattern) return "pattern mode, patterns " + inWords(found.run);
+    if (found.source == dlpc350::Source::testPattern) return "its own test pattern";
     const auto& video = found.video;
     return "video mode, " + (video.locked ? "gets " : std::string()) + inWords(video);
 }

@@ -27,6 +27,9 @@ FakeBoard::FakeBoard() {
     // Locked, 912 = 0x0390 by 1140 = 0x0474, 60.00 Hz = 6000 = 0x1770 at byte 14.
     registers[0x071C] = {0x02, 0x90, 0x03, 0x74, 0x04, 0, 1, 1, 0, 0, 0, 0, 0, 0,
                          0x70, 0x17, 0,    0,    0,    0, 0, 0, 0, 0, 0, 0, 0, 0};
+    registers[0x1A00] = {0x08};  // the parallel port, 24 bits
+    registers[0x1203] = {7};
+    registers[0x1204] = Bytes(12, 0);
     registers[0x1A1B] = {0};
     registers[0x1A22] = {3};
     registers[0x1A23] = {1};
@@ -93,7 +96,8 @@ void FakeBoard::obey() {
         if (refuses.contains(command)) return answer({0xE0, sequence, 0, 0});
         Bytes data = registers.contains(command) ? registers[command] : Bytes{};
         if (command == 0x1A1A) data = checks_++ < busyChecks ? Bytes{0x80} : checkResult;
-        if (command == 0x071C && patternMode()) data[0] = 0x01;  // not locked, whatever comes
+        // Not locked, whatever comes.
+        if (command == 0x071C && (patternMode() || (registers[0x1A00][0] & 7) == 1)) data[0] = 0x01;
         if (command == 0x1A34) data = Bytes(data.begin() + 3 * offset_, data.end());
         if (lies.contains(command)) data = lies[command];
         Bytes message{0xC0, sequence, static_cast<std::uint8_t>(data.size() & 0xFF),

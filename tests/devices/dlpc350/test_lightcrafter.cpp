@@ -56,7 +56,8 @@ TEST_CASE("lightcrafter: a start is the reference's order of operations, byte by
         "1A33 00", "1A1A 00", "1A24 02",       "1A24 02"};
     CHECK(bench.board->told == wanted);
     CHECK(bench.board->asked.front() == "1A1B");
-    CHECK(bench.board->asked[1] == "071C");  // locked and measured before anything is changed
+    CHECK(bench.board->asked[1] == "1A00");
+    CHECK(bench.board->asked[2] == "071C");  // locked and measured before anything is changed
     CHECK(bench.board->runs());
     // Two frames after the stop, two busy checks, 100 ms between the starts, two frames more.
     CHECK(std::chrono::duration<double>(bench.time.time).count() ==
@@ -302,8 +303,8 @@ TEST_CASE("lightcrafter: the watch asks at most once a second and notices a flip
 }
 
 TEST_CASE("lightcrafter: LED currents, program mode, bootloader, reset and power are never touched") {
-    const std::set<std::string> known{"1A07", "1A1A", "1A1B", "1A1D", "1A1E", "1A22", "1A23",
-                                      "1A24", "1A29", "1A31", "1A32", "1A33", "1A34"};
+    const std::set<std::string> known{"1203", "1204", "1A00", "1A07", "1A1A", "1A1B", "1A1D", "1A1E",
+                                      "1A22", "1A23", "1A24", "1A29", "1A31", "1A32", "1A33", "1A34"};
     BringUp bringUp;
     bringUp.triggerOut1 = TriggerOut1{};
     bringUp.triggerOut2 = TriggerOut2{};
@@ -312,6 +313,7 @@ TEST_CASE("lightcrafter: LED currents, program mode, bootloader, reset and power
     REQUIRE(bench.driver->findings());
     REQUIRE(bench.driver->start(kSlots));
     REQUIRE(bench.driver->watch());
+    REQUIRE(bench.driver->showOwnWhite());
     REQUIRE(bench.driver->showVideo());
     bench.board->registers[0x1A0A] = {0x80};
     REQUIRE(!bench.driver->start(kSlots));
@@ -330,6 +332,94 @@ TEST_CASE("lightcrafter: plain video is patterns stopped and the mode changed, o
     CHECK(bench.board->told == std::vector<std::string>{"1A24 00"});
 }
 
+TEST_CASE("lightcrafter: its own white is patterns stopped, the picture set, then chosen; and video again, as it was") {
+    Bench bench;
+    REQUIRE(bench.driver->start(kSlots));
+    bench.board->told.clear();
+    REQUIRE(bench.driver->showOwnWhite());
+    // 1023 = 0x03FF: red, green, blue, and once more for the background. Test pattern 0 is the solid field; source 1
+    // keeps the parallel port's 24 bits (code 1 in bits 5:3).
+    CHECK(bench.board->told ==
+          std::vector<std::string>{"1A24 00", "1A1B 00", "1204 FF03FF03FF03FF03FF03FF03", "1203 00", "1A00 09"});
+    CHECK(bench.driver->watch()->source == Source::testPattern);
+    const auto found = bench.driver->findings();
+    REQUIRE(found);
+    CHECK(found->troubles.empty());
+    CHECK(contains(found->remarks.back(), "It shows test pattern instead of video"));
+
+    bench.board->told.clear();
+    REQUIRE(bench.driver->showOwnWhite());  // again and again: nothing flickers
+    CHECK(bench.board->told == std::vector<std::string>{"1A24 00"});
+
+    bench.board->told.clear();
+    REQUIRE(bench.driver->showVideo());
+    CHECK(bench.board->told == std::vector<std::string>{"1A24 00", "1A00 08"});
+    CHECK(*bench.driver->seesVideo());
+    CHECK(bench.driver->watch()->seesVideo);
+    bench.board->registers[0x071C][0] = 0x01;
+    CHECK_FALSE(*bench.driver->seesVideo());
+    bench.time.time += std::chrono::seconds(1);
+    CHECK_FALSE(bench.driver->watch()->seesVideo);
+}
+
+TEST_CASE(
+    "lightcrafter: a start finds the board in a picture of its own and goes back to video, another port is left") {
+    using Bytes2 = std::pair<std::uint8_t, std::uint8_t>;
+    for (const auto& [left, wanted] : {Bytes2{0x11, 0x10}, Bytes2{0x02, 0x00}, Bytes2{0x0B, 0x0B}}) {
+        CAPTURE(int{left});
+        Bench bench;
+        bench.board->registers[0x1A00] = {left};
+        REQUIRE(bench.driver->start(kSlots));
+        CHECK(bench.board->registers[0x1A00] == Bytes{wanted});
+        CHECK(bench.board->runs());
+    }
+}
+
+TEST_CASE(
+    "lightcrafter: whichever call of its own white fails, there is an error, and no pattern runs once it got to it") {
+    for (int n = 1;; ++n) {
+        Bench bench;
+        REQUIRE(bench.driver->start(kSlots));
+        bench.board->calls = 0;
+        bench.board->failAt = n;
+        const auto shown = bench.driver->showOwnWhite();
+        CAPTURE(n);
+        if (bench.board->calls < n) {
+            CHECK(shown);
+            CHECK(n > 16);
+            break;
+        }
+        // A setting that could not be asked is told.
+        if (shown) {
+            CHECK(bench.board->registers[0x1A00] == Bytes{0x09});
+            CHECK(bench.board->registers[0x1203] == Bytes{0});
+            CHECK(bench.board->registers[0x1204] == Bytes{255, 3, 255, 3, 255, 3, 255, 3, 255, 3, 255, 3});
+        } else {
+            CHECK(contains(shown.error().what, "Injected fault."));
+        }
+        CHECK(bench.driver->showOwnWhite());
+        CHECK_FALSE(bench.board->runs());
+    }
+}
+
+TEST_CASE("lightcrafter: its own white that reads back otherwise is an error that names it") {
+    struct Lie {
+        int command;
+        Bytes says;
+        std::string sentence;
+    };
+    for (const Lie& lie :
+         {Lie{0x1A00, {0x08}, "was told input source \"test pattern\" but says \"parallel port\""},
+          Lie{0x1203, {7}, "was told test pattern \"one colour\" but says \"pattern 7\""},
+          Lie{0x1204, Bytes(12, 0), "\"1023 1023 1023 on 1023 1023 1023\" but says \"0 0 0 on 0 0 0\""}}) {
+        Bench bench;
+        bench.board->lies[lie.command] = lie.says;
+        const auto shown = bench.driver->showOwnWhite();
+        REQUIRE_FALSE(shown);
+        CHECK_MESSAGE(contains(shown.error().what, lie.sentence), shown.error().what);
+    }
+}
+
 TEST_CASE("lightcrafter: whatever the board answers, the driver returns") {
     law("random replies to a start", [] {
         Bench bench;
@@ -338,5 +428,7 @@ TEST_CASE("lightcrafter: whatever the board answers, the driver returns") {
         const auto started = bench.driver->start(kSlots);
         RC_ASSERT(started || !started.error().what.empty());
         if (!started) RC_ASSERT(!bench.board->runs());
+        const auto white = bench.driver->showOwnWhite();
+        RC_ASSERT(white || !white.error().what.empty());
     });
 }

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "devices/dlpc350/input_source.h"
 #include "devices/dlpc350/sequence.h"
 #include "devices/dlpc350/settings.h"
 #include "tests/support/law.h"
@@ -33,7 +34,8 @@ bool everyDecoderStands(const Bytes& bytes) {
            staysInWords<Validation>(bytes) && staysInWords<Display>(bytes) && staysInWords<PatternSource>(bytes) &&
            staysInWords<TriggerMode>(bytes) && staysInWords<PatternRun>(bytes) && staysInWords<ExposurePeriod>(bytes) &&
            staysInWords<LutControl>(bytes) && staysInWords<LedControl>(bytes) && staysInWords<TriggerOut1>(bytes) &&
-           staysInWords<TriggerOut2>(bytes);
+           staysInWords<TriggerOut2>(bytes) && staysInWords<InputSource>(bytes) && staysInWords<TestPattern>(bytes) &&
+           staysInWords<TestColours>(bytes);
 }
 
 /// Feeds packets of at most 64 bytes until the reply is whole, fails or nothing is left.
@@ -171,6 +173,25 @@ TEST_CASE("dlpc350: states and settings from bytes written by hand") {
     CHECK(parsed<PatternSource>(Bytes{}).error().what == "The reply to \"pattern source\" has 0 of 1 bytes.");
 }
 
+TEST_CASE("dlpc350: input source, test pattern and its colours from bytes written by hand") {
+    CHECK(parsed<InputSource>(Bytes{0x08}) == InputSource{Source::parallel, 1});
+    CHECK(parsed<InputSource>(Bytes{0x29}) == InputSource{Source::testPattern, 5});
+    CHECK(parsed<InputSource>(Bytes{0x03}) == InputSource{Source::fpdLink, 0});
+    CHECK(parsed<InputSource>(Bytes{0x04}).error().what ==
+          "The board's input source is 4, which this program does not know.");
+    CHECK(payloadOf(InputSource{Source::testPattern, 1}) == Bytes{0x09});
+    CHECK(payloadOf(InputSource{Source::flash, 7}) == Bytes{0x3A});
+    CHECK(parsed<TestPattern>(Bytes{0x00}) == TestPattern::solid);
+    CHECK(parsed<TestPattern>(Bytes{0x0A}) == TestPattern::stepBars);
+    CHECK(!parsed<TestPattern>(Bytes{0x0B}));
+    CHECK(payloadOf(TestPattern::checkerboard) == Bytes{0x07});
+    const Bytes colours{0x01, 0x02, 0x03, 0x00, 0xFF, 0x03, 0, 0, 0x10, 0, 0, 0x01};
+    CHECK(parsed<TestColours>(colours) == TestColours{{513, 3, 1023}, {0, 16, 256}});
+    CHECK(payloadOf(TestColours{{513, 3, 1023}, {0, 16, 256}}) == colours);
+    CHECK(payloadOf(kTestWhite) == Bytes{255, 3, 255, 3, 255, 3, 255, 3, 255, 3, 255, 3});
+    CHECK(!parsed<TestColours>(Bytes(11)));
+}
+
 TEST_CASE("dlpc350: troubles are told in words") {
     CHECK(troubles(HardwareStatus{true, false, false, false, false}).empty());
     CHECK(troubles(*parsed<HardwareStatus>(Bytes{0xCC})).size() == 5);
@@ -191,6 +212,12 @@ TEST_CASE("dlpc350: settings that are sent are read back as the same") {
         RC_ASSERT(parsed<ExposurePeriod>(payloadOf(time)) == time);
         RC_ASSERT(parsed<LutControl>(payloadOf(control)) == control);
         RC_ASSERT(parsed<TriggerOut1>(payloadOf(out1)) == out1);
+        const InputSource input{static_cast<Source>(*rc::gen::inRange(0, 4)),
+                                static_cast<std::uint8_t>(*rc::gen::inRange(0, 8))};
+        const auto value = rc::gen::map(rc::gen::inRange(0, 1024), [](int v) { return static_cast<std::uint16_t>(v); });
+        const TestColours colours{{*value, *value, *value}, {*value, *value, *value}};
+        RC_ASSERT(parsed<InputSource>(payloadOf(input)) == input);
+        RC_ASSERT(parsed<TestColours>(payloadOf(colours)) == colours);
     });
 }
 

@@ -413,6 +413,68 @@ TEST_CASE("light crafter: in video mode the frame of a period before is shown as
     CHECK((host.read(0x1C, 0x07)[0] & 3) == 0);
 }
 
+TEST_CASE("light crafter: its own picture needs no video, is what pattern and colours say, and hides what comes in") {
+    Host host;
+    CHECK(host.read(0x00, 0x1A) == Bytes{0x08});
+    const auto shows = [&host] {
+        host.projector.takeLight(host.now);
+        host.now += 50 * kMs;
+        auto light = host.projector.takeLight(host.now);
+        for (const LightSlot& slot : light)
+            CHECK(slot.drawn);
+        return light;
+    };
+    CHECK(shows().empty());
+    REQUIRE(host.write(0x04, 0x12, {0xFF, 3, 0xFF, 3, 0xFF, 3, 0, 0, 0, 0, 0, 0}));
+    CHECK(shows().empty());
+    REQUIRE(host.write(0x00, 0x1A, {0x09}));
+    CHECK(host.projector.draws(host.now));
+    auto light = shows();
+    REQUIRE(light.size() >= 2);
+    CHECK(std::ranges::all_of(light[1].light(), [](std::uint8_t value) { return value == 255; }));
+    CHECK(light[1].start_ns == light[0].end_ns);
+
+    // Half the red: less light everywhere. Other patterns are not uniform: the background is black.
+    REQUIRE(host.write(0x04, 0x12, {0xFF, 1, 0xFF, 3, 0xFF, 3, 0, 0, 0, 0, 0, 0}));
+    light = shows();
+    const int reddish = light.back().codeAt(0, 0);
+    CHECK((reddish > 100 && reddish < 250));
+    for (const int pattern : {1, 4, 7, 10}) {
+        REQUIRE(host.write(0x03, 0x12, {std::uint8_t(pattern)}));
+        const auto pixels = shows().back().light();
+        CHECK(std::ranges::min(pixels) != std::ranges::max(pixels));
+    }
+    CHECK_FALSE(host.write(0x03, 0x12, {0x0B}));
+
+    // Video is neither seen nor said to be locked meanwhile, and has to be locked on again.
+    host.projector.plugVideo({}, host.now);
+    CHECK(host.read(0x00, 0x1A) == Bytes{0x08});  // shown at once, as users found
+    REQUIRE(host.write(0x00, 0x1A, {0x09}));
+    host.now += 300 * kMs;
+    host.frames(uniformFrame(255, 255, 255), 3);
+    CHECK(host.read(0x1C, 0x07)[0] == 1);
+    shows();
+    REQUIRE(host.write(0x00, 0x1A, {0x08}));
+    CHECK(host.read(0x1C, 0x07)[0] == 1);
+    host.now += 300 * kMs;
+    CHECK((host.read(0x1C, 0x07)[0] & 3) == 2);
+    host.projector.takeLight(host.now);
+    host.frames(uniformFrame(255, 255, 255), 4);
+    light = host.projector.takeLight(host.now);
+    REQUIRE_FALSE(light.empty());
+    CHECK_FALSE(light.back().drawn);
+    CHECK(light.back().light()[1000] == 255);
+
+    // Patterns take what comes in: nothing, while another source is chosen; and they keep the source still.
+    play(host, streamingLut(1, 24), 694);
+    CHECK_FALSE(host.write(0x00, 0x1A, {0x09}));
+    REQUIRE(host.write(0x24, 0x1A, {0}));
+    host.now += 100 * kMs;
+    REQUIRE(host.write(0x00, 0x1A, {0x09}));
+    host.frames(uniformFrame(255, 255, 255), 4);
+    CHECK(host.projector.takeLight(host.now).empty());
+}
+
 TEST_CASE("light crafter: toggled to video again and again it hangs until it is switched off and on") {
     Host host;
     host.projector.plugVideo({}, host.now);

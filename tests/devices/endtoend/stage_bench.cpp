@@ -197,7 +197,7 @@ class StageBench::Display final : public VideoOutput {
 public:
     explicit Display(StageBench& owner) : owner_(owner) {}
     Result<ScannedOut> show(const VideoFrame& frame) override {
-        if (owner_.displayUnplugged) return gone();
+        if (owner_.displayUnplugged_) return gone();
         const bool failing = owner_.spoils && owner_.spoils();
         if (failing && !owner_.afterEffect) return spoilt();
         shown = frame;
@@ -208,7 +208,7 @@ public:
         return ScannedOut{std::chrono::nanoseconds(owner_.bench.now_ns()), frames};
     }
     Result<VideoMode> mode() override {
-        if (owner_.displayUnplugged) return gone();
+        if (owner_.displayUnplugged_) return gone();
         if (owner_.spoils && owner_.spoils()) return spoilt();
         return VideoMode{{912, 1140}, 60.0_Hz};
     }
@@ -286,6 +286,16 @@ void StageBench::unplugLenses() {
     if (daqLink_ != nullptr) daqLink_->pulled();
 }
 
+void StageBench::unplugDisplay() {
+    displayUnplugged_ = true;
+    bench.board.unplugVideo(bench.now_ns());
+}
+
+void StageBench::plugDisplay() {
+    displayUnplugged_ = false;
+    bench.board.plugVideo({912, 1140, 60.0}, bench.now_ns());
+}
+
 std::optional<std::string> StageBench::beats(int count) {
     std::optional<std::string> first;
     for (int i = 0; i < count; ++i) {
@@ -305,11 +315,18 @@ DeviceLine StageBench::line(const std::string& what) const {
 }
 
 bool StageBench::white() {
-    if (!bench.board.running()) return display_->shown == uniformFrame({912, 1140}, 255);
-    const auto sweep = bench.newestSweep();
-    return !sweep.empty() && std::ranges::all_of(sweep, [](const SlotLight& slot) {
+    const auto full = [](const SlotLight& slot) {
         return std::ranges::all_of(slot.light.pixels(), [](std::uint8_t value) { return value == 255; });
-    });
+    };
+    if (bench.board.draws(bench.now_ns())) {
+        (void)bench.takeLight();
+        bench.frames(2);
+        const auto light = bench.takeLight();
+        return !light.empty() && full(taken(light.back(), 0));
+    }
+    if (!bench.board.running()) return !displayUnplugged_ && display_->shown == uniformFrame({912, 1140}, 255);
+    const auto sweep = bench.newestSweep();
+    return !sweep.empty() && std::ranges::all_of(sweep, full);
 }
 
 bool StageBench::lensesRest() {

@@ -78,7 +78,10 @@ public:
     Spoils spoils;
     /// The order gets through and its answer is lost.
     bool afterEffect = false;
-    bool boardUnplugged = false, lensesUnplugged = false, displayUnplugged = false;
+    bool boardUnplugged = false, lensesUnplugged = false;
+    /// Pulls the video cable at the computer's end, and puts it back.
+    void unplugDisplay();
+    void plugDisplay();
     /// Pulls the box's cable: it loses its power. The board has its own and goes on.
     void unplugLenses();
     /// Why the projector cannot be opened, as the bus says it.
@@ -94,7 +97,8 @@ public:
     std::optional<std::string> beats(int count);
     DeviceLine line(const std::string& what) const;
 
-    /// No pattern runs and the video is white; or every slot of the newest sweep is white.
+    /// No pattern runs and the board shows white of its own, or the video is white; or every slot of the newest sweep
+    /// is white.
     bool white();
     /// Both outputs hold the resting currents and nothing sweeps.
     bool lensesRest();
@@ -108,6 +112,7 @@ private:
     Clock clock();
 
     emulators::TriggerWire wire_{bench.board};
+    bool displayUnplugged_ = false;
     std::shared_ptr<Display> display_;
     DaqLink* daqLink_ = nullptr;
 };

@@ -41,6 +41,22 @@ Result<void> played(StageBench& room) {
     return room.stage->heartbeat();
 }
 
+/// A display that is pulled for two seconds, and a program after it.
+Result<void> lostAndBack(StageBench& room) {
+    if (auto shown = room.played(first()); !shown) return shown;
+    (void)room.beats(1);
+    room.unplugDisplay();
+    (void)room.beats(12);
+    const bool lit = room.white();
+    room.plugDisplay();
+    (void)room.beats(12);
+    if (const auto fault = room.beats(2)) return fail(Fault::device, *fault);
+    if (!lit) return fail(Fault::device, "It was dark.");
+    if (auto shown = room.played(second()); !shown) return shown;
+    room.stage->safeLight();
+    return room.stage->heartbeat();
+}
+
 }  // namespace
 
 TEST_CASE("stage over USB: an evening without faults plays in step and ends lit and at rest") {
@@ -94,10 +110,18 @@ TEST_CASE("stage over USB: the first light of a new program comes within one swe
 }
 
 TEST_CASE("stage over USB: whichever call of a cable or the display fails, the scene ends lit and the lenses at rest") {
-    for (const bool afterEffect : {false, true}) {
+    struct Case {
+        Result<void> (*evening)(StageBench& room);
+        bool afterEffect;
+        int step;
+    };
+    // What comes before the display is pulled is the evening that went before: some of its calls will do.
+    for (const auto& [evening, afterEffect, step] :
+         {Case{played, false, kStep}, Case{played, true, kStep}, Case{lostAndBack, false, 5 * kStep},
+          Case{lostAndBack, true, 5 * kStep}}) {
         bool untouched = false;
         int failing = 1, faults = 0;
-        for (; !untouched; failing += kStep) {
+        for (; !untouched; failing += step) {
             REQUIRE(failing < 2000);
             CAPTURE(failing);
             CAPTURE(afterEffect);
@@ -105,7 +129,7 @@ TEST_CASE("stage over USB: whichever call of a cable or the display fails, the s
             StageBench room;
             room.afterEffect = afterEffect;
             room.spoils = [&] { return ++calls == failing; };
-            const auto done = played(room);
+            const auto done = evening(room);
             untouched = calls < failing;
             if (untouched) {
                 CHECK(done);
@@ -120,6 +144,6 @@ TEST_CASE("stage over USB: whichever call of a cable or the display fails, the s
             CHECK(room.stage->report().well);
         }
         CHECK(failing > 150);
-        CHECK(faults * kStep > 100);
+        CHECK(faults * step > 100);
     }
 }

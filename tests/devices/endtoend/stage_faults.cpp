@@ -209,16 +209,50 @@ TEST_CASE("faults of a show: the lenses' cable is pulled") {
     evening.recovers();
 }
 
-TEST_CASE("faults of a show: the projector's display is unplugged") {
+TEST_CASE("faults of a show: the projector's display is unplugged, and the board makes its own white") {
     Playing evening;
-    evening.room.displayUnplugged = true;
+    evening.room.unplugDisplay();
     const std::string read = evening.reads();
-    CHECK_MESSAGE(contains(read, "(HDMI-2) is gone. Check its cable and its power."), read);
-    CHECK_FALSE(evening.room.bench.board.running());
-    CHECK(evening.room.lensesRest());
+    CHECK_MESSAGE(contains(read, "(HDMI-2) is gone. Check its cable and its power. The projector shows its own white."),
+                  read);
+    evening.endsLitAndAtRest();
+    CHECK(evening.room.bench.board.draws(evening.room.bench.now_ns()));
     CHECK(evening.room.line("display").health == DeviceHealth::unplugged);
-    evening.room.displayUnplugged = false;
+    CHECK(evening.room.line("projector").health == DeviceHealth::well);
+    CHECK_FALSE(evening.room.played(show()));  // TAKE finds nothing to play on, and leaves the room lit
+    evening.endsLitAndAtRest();
+    evening.room.plugDisplay();
     evening.recovers();
+    CHECK_FALSE(evening.room.bench.board.draws(evening.room.bench.now_ns()));
+    CHECK_FALSE(evening.room.beats(15));
+}
+
+TEST_CASE("faults of a show: the video cable is pulled at the projector's end, which the computer does not see") {
+    Playing evening;
+    evening.room.bench.board.unplugVideo(evening.room.bench.now_ns());
+    const std::string read = evening.reads();
+    CHECK_MESSAGE(contains(read, "The projector shows its own white."), read);
+    evening.endsLitAndAtRest();
+    const auto again = evening.room.played(show());
+    REQUIRE_FALSE(again);
+    CHECK_MESSAGE(contains(again.error().what, "gets no video although its display is there"), again.error().what);
+    evening.endsLitAndAtRest();
+    evening.room.bench.board.plugVideo({912, 1140, 60.0}, evening.room.bench.now_ns());
+    evening.recovers();
+}
+
+TEST_CASE("faults of a start: the board is left in its own white, which becomes white video first") {
+    StageBench room;
+    room.stage = nullptr;
+    auto left = *dlpc350::LightCrafter::open(std::make_unique<DirectLink>(room.bench), room.bench.clock());
+    REQUIRE(left->showOwnWhite());
+    left = nullptr;
+    room.opened();
+    CHECK_FALSE(room.beats(2));
+    room.bench.frames(3);
+    CHECK(room.white());
+    CHECK_FALSE(room.bench.board.draws(room.bench.now_ns()));
+    CHECK(room.played(show()));
 }
 
 TEST_CASE("faults of a start: the board runs patterns of somebody else, which become white first") {
@@ -276,7 +310,7 @@ TEST_CASE("faults of a show: a silent board keeps the lenses from rest only unti
     // When the display is lost too, the board is asked first, briefly.
     Playing both;
     both.room.bench.board.setFaults({{Mishap::silence}});
-    both.room.displayUnplugged = true;
+    both.room.unplugDisplay();
     const double lost = both.room.seconds();
     rested.reset();
     both.room.bench.meanwhile = [&, before = both.room.bench.meanwhile] {

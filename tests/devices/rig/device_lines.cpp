@@ -36,7 +36,7 @@ TEST_CASE("device lines: three, not looked for at first, then what each does") {
     CHECK(rig.stage.report().devices ==
           std::vector<DeviceLine>{
               {"projector", DeviceHealth::well, "board", "It shows steady white light; TAKE plays the slots."},
-              {"display", DeviceHealth::well, "HDMI-2", "It carries white, 8x4 at 60.00 Hz."},
+              {"display", DeviceHealth::well, "HDMI-2 (TI LCR4500 7)", "It carries white, 8x4 at 60.00 Hz."},
               {"lenses", DeviceHealth::well, "scripted lenses", "They rest at 0.00 D; TAKE plays the sweep."}});
     show(rig);
     CHECK(lineOf(rig, "projector").line == "It shows 16 slots a sweep.");
@@ -114,9 +114,12 @@ TEST_CASE("device lines: a display that is pulled out or switched, and lenses ou
     show(rig);
     rig.video->lose();
     REQUIRE_FALSE(rig.stage.heartbeat());
-    CHECK(lineOf(rig, "display") == DeviceLine{"display", DeviceHealth::unplugged, "HDMI-2",
+    CHECK(lineOf(rig, "display") == DeviceLine{"display", DeviceHealth::unplugged, "HDMI-2 (TI LCR4500 7)",
                                                "The projector's display (HDMI-2) is gone. Check its cable and its "
                                                "power."});
+    CHECK(lineOf(rig, "projector") ==
+          DeviceLine{"projector", DeviceHealth::well, "board",
+                     "It shows steady white light of its own, without video; TAKE plays the slots."});
     rig.video->giveBack();
     rig.room.now += 1s;
     REQUIRE(rig.stage.heartbeat());
@@ -150,6 +153,26 @@ TEST_CASE("device lines: timing is told while slots are on, its missed triggers 
     CHECK(report.lensTemperature_C == 30.0);
     rig.stage.safeLight();
     CHECK_FALSE(rig.stage.report().timing);
+}
+
+TEST_CASE(
+    "device lines: a display without a name or a measured rate is said to be so, and slots have the plan's rate") {
+    ScriptedRig rig;
+    struct Unmeasured : test::ScriptedVideo {
+        using ScriptedVideo::ScriptedVideo;
+        Result<VideoMode> mode() override { return VideoMode{{8, 4}, 0.0_Hz}; }
+        const DisplayIdentity& display() const override { return screen; }
+        DisplayIdentity screen{"screen", "", "", ""};
+    };
+    auto made = rig.made();
+    made.video = std::make_shared<Unmeasured>(rig.room);
+    LightCrafterStage stage(std::move(made));
+    REQUIRE(stage.load(kShow));
+    REQUIRE(stage.swap());
+    const auto report = stage.report();
+    CHECK(report.projectorLine == "board: 16 slots at 60.00 Hz");
+    CHECK(report.devices[1] == DeviceLine{"display", DeviceHealth::well, "screen (unnamed)",
+                                          "It carries the slots, 8x4; how often a second is not measured."});
 }
 
 TEST_CASE("device lines: an emulated rig says so") {

@@ -115,6 +115,13 @@ TEST_CASE("lightcrafter stage: a stage that has told nothing yet makes safe what
     rig.room.wave = kFirst.waveform;
     rig.stage.safeLight();
     CHECK(safe(rig));
+
+    ScriptedRig other;
+    other.room.ownWhite = true;  // of a player that lost its display and was killed
+    other.stage.safeLight();
+    CHECK(safe(other));
+    CHECK_FALSE(other.room.ownWhite);
+    CHECK(other.played(kFirst));
 }
 
 TEST_CASE("lightcrafter stage: every fault of a show ends in safe light, with one sentence") {
@@ -163,20 +170,74 @@ TEST_CASE("lightcrafter stage: every fault of a show ends in safe light, with on
         CHECK(beat.error().what == "The lens does something else than it was told; was its driver restarted?");
         CHECK(safe(rig));
     }
-    SUBCASE("the display is lost: the board shows plain video of nobody knows what") {
+    SUBCASE("the display is lost: the board makes its own white, until the next program") {
         ScriptedRig rig;
         show(rig);
+        rig.orders();
         rig.video->lose();
-        CHECK(faultOf(rig) == "The projector's display (HDMI-2) is gone. Check its cable and its power. The "
-                              "projector's light is not known.");
+        CHECK(faultOf(rig) == "The projector's display (HDMI-2) is gone. Check its cable and its power. The projector "
+                              "shows its own white.");
+        CHECK(rig.orders() == Calls{"video: white", "board: own white", "lens: safe"});
+        CHECK(rig.room.ownWhite);
         CHECK_FALSE(rig.room.patterns);
         CHECK_FALSE(rig.room.wave);
-        CHECK(rig.stage.report().projectorLine == "board: its display HDMI-2 is gone; its light is not known");
+        CHECK(rig.stage.report().projectorLine == "board: its display HDMI-2 is gone; steady white of its own");
+        CHECK(rig.stage.report().light == LightMode::steady);
         CHECK_FALSE(rig.stage.report().well);
+        CHECK_FALSE(rig.played(kFirst));  // there is nothing to play on
+        CHECK(rig.room.ownWhite);
+
         rig.video->giveBack();
         rig.room.now += 1s;
         CHECK(rig.stage.heartbeat());
+        CHECK(rig.room.ownWhite);  // going back is dark for a moment
         CHECK(safe(rig));
+        CHECK(rig.stage.report().well);
+        CHECK(rig.stage.report().projectorLine == "board: steady white of its own");
+        rig.orders();
+        REQUIRE(rig.played(kFirst));
+        CHECK(rig.orders() == Calls{"video: white", "board: video", "lens: play", "board: start 16", "video: frame"});
+        CHECK(rig.room.slotted());
+        rig.stage.safeLight();
+        CHECK_FALSE(rig.room.ownWhite);
+        CHECK(rig.room.violations == Calls{});
+    }
+    SUBCASE("no video comes in although the display is there: as if it were lost") {
+        const std::string noVideo = "The projector gets no video although its display is there; check the video cable "
+                                    "at the projector's end, then TAKE. The projector shows its own white.";
+        ScriptedRig rig;
+        REQUIRE(rig.stage.heartbeat());
+        rig.room.seesVideo = false;
+        CHECK(faultOf(rig) == noVideo);
+        CHECK(rig.room.ownWhite);
+        CHECK(rig.stage.heartbeat());  // nothing is amiss in its own white
+        const auto played = rig.played(kFirst);
+        REQUIRE_FALSE(played);
+        CHECK(played.error().what == noVideo);
+        CHECK(rig.room.ownWhite);
+        CHECK_FALSE(rig.room.wave);
+        rig.room.seesVideo = true;
+        CHECK(rig.played(kFirst));
+
+        rig.room.now += 3s;
+        rig.room.seesVideo = false;  // patterns stop with it
+        rig.room.troubles = {"The sequencer gave up."};
+        CHECK(faultOf(rig) == "The sequencer gave up. The projector shows its own white.");
+        CHECK(rig.room.ownWhite);
+    }
+    SUBCASE("the board leaves its own white by itself: it is told again") {
+        ScriptedRig rig;
+        show(rig);
+        rig.video->lose();
+        faultOf(rig);
+        rig.video->giveBack();
+        rig.room.now += 1s;
+        REQUIRE(rig.stage.heartbeat());
+        rig.room.ownWhite = false;
+        CHECK(faultOf(rig) == "The projector left its own white by itself, as it may when its video comes back; press "
+                              "TAKE to start the slots again. The projector shows its own white.");
+        CHECK(rig.room.ownWhite);
+        CHECK(rig.stage.heartbeat());
     }
     SUBCASE("the board is unplugged: it is still sent white") {
         ScriptedRig rig;

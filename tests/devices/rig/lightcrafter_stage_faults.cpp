@@ -29,7 +29,63 @@ Result<void> evening(ScriptedRig& rig) {
     return rig.stage.heartbeat();
 }
 
+/// A show whose display is pulled and put back, and that goes on.
+Result<void> lostAndBack(ScriptedRig& rig) {
+    if (const auto shown = rig.played(test::program(1)); !shown) return shown;
+    rig.room.now += 3s;
+    rig.video->lose();
+    for (int beat = 0; beat < 12; ++beat) {
+        (void)rig.stage.heartbeat();
+        rig.stage.safeLight();
+        rig.room.now += 100ms;
+    }
+    rig.video->giveBack();
+    rig.room.now += 1s;
+    if (const auto well = rig.stage.heartbeat(); !well) return well;
+    if (const auto shown = rig.played(test::program(2, 4.27_D)); !shown) return shown;
+    rig.stage.safeLight();
+    return rig.stage.heartbeat();
+}
+
 }  // namespace
+
+TEST_CASE("lightcrafter stage: whichever call fails around a lost display, the scene is lit and the lens rests") {
+    for (const bool afterEffect : {false, true}) {
+        for (int failing = 1;; ++failing) {
+            REQUIRE(failing < 300);
+            CAPTURE(failing);
+            CAPTURE(afterEffect);
+            int calls = 0;
+            std::string failed;
+            ScriptedRig rig;
+            rig.room.failsAfterEffect = afterEffect;
+            rig.room.failsAt = [&](const std::string& call) {
+                if (++calls != failing) return false;
+                failed = call;
+                return true;
+            };
+            const auto done = lostAndBack(rig);
+            if (calls < failing) {
+                CHECK(done);
+                CHECK(failing > 60);
+                break;
+            }
+            CAPTURE(failed);
+            rig.video->giveBack();
+            for (int beat = 0; beat < 30; ++beat) {
+                rig.room.now += 100ms;
+                if (!rig.stage.heartbeat()) rig.stage.safeLight();
+            }
+            CHECK(rig.room.lit());
+            CHECK_FALSE(rig.room.slotted());
+            CHECK_FALSE(rig.room.wave);
+            CHECK(rig.stage.report().well);
+            CHECK(rig.room.violations == Calls{});
+            CHECK(rig.played(test::program(5)));
+            CHECK(rig.room.slotted());
+        }
+    }
+}
 
 TEST_CASE("lightcrafter stage: whichever call fails, at whichever time, the scene is lit and the lens rests") {
     for (const bool afterEffect : {false, true}) {
@@ -62,6 +118,7 @@ TEST_CASE("lightcrafter stage: whichever call fails, at whichever time, the scen
                 if (!done) CHECK_FALSE(rig.room.slotted());
             }
             CHECK(rig.room.whiteShown);
+            CHECK(rig.room.lit());
             CHECK_FALSE(rig.room.slotted());
             CHECK_FALSE(rig.room.wave);
             CHECK(rig.stage.report().well);
@@ -101,6 +158,7 @@ TEST_CASE("lightcrafter stage: what fails for good from any call on is left, and
             }
             CHECK_FALSE(rig.room.slotted());
             if (gone != "video") CHECK(rig.room.whiteShown);
+            if (gone == "video") CHECK(rig.room.ownWhite);
             if (gone != "board") CHECK_FALSE(rig.room.patterns);
             if (gone != "lens") CHECK_FALSE(rig.room.wave);
             CHECK_FALSE(rig.stage.report().well);
@@ -133,8 +191,8 @@ TEST_CASE(
         rig.room.failsAt = [chances, failRate, asked = std::size_t{0}](const std::string&) mutable {
             return chances[asked++ % chances.size()] < failRate;
         };
-        const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 12));
-        bool faulted = false;
+        const auto steps = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 14));
+        bool faulted = false, lost = false;
         for (const int step : steps) {
             switch (step) {
             case 0:
@@ -157,15 +215,24 @@ TEST_CASE(
             case 6:
                 rig.room.phaseError = rig.room.phaseError > 0.0_s ? 0.0_s : 300.0_us;
                 break;
+            case 7:
+                lost = !lost;
+                lost ? rig.video->lose() : rig.video->giveBack();
+                break;
+            case 8:
+                rig.room.seesVideo = !rig.room.seesVideo;
+                break;
             default:
                 rig.room.now += std::chrono::milliseconds(step * 300);
                 if (!rig.stage.heartbeat()) {
                     rig.stage.safeLight();
                     faulted = true;
                 }
+                // Display or none, video or none: a board that listens is lit.
+                if (faulted && !rig.room.plainFailed && !rig.room.boardGone) RC_ASSERT(rig.room.lit());
             }
             RC_ASSERT(rig.room.violations.empty());
-            const bool reachable = !rig.room.whiteFailed || !rig.room.showVideoFailed;
+            const bool reachable = !rig.room.whiteFailed || !rig.room.plainFailed;
             RC_ASSERT(!faulted || !rig.room.slotted() || !reachable);
         }
     });

@@ -28,18 +28,22 @@ struct ScriptedRoom {
     std::chrono::nanoseconds now{std::chrono::seconds(10)};
     std::vector<std::string> log;
     std::vector<std::string> violations;  ///< of the promises of light and lens
-    bool patterns = false;                ///< else plain video
+    bool patterns = false;                ///< else plain video, or the board's own white
+    bool ownWhite = false;
+    bool seesVideo = true;  ///< the board does, while its cable is in
     bool whiteShown = false, frameShown = false;
-    bool whiteFailed = false, showVideoFailed = false;  ///< the last of each
-    std::optional<Waveform> wave;                       ///< none: the lens rests
+    bool whiteFailed = false, plainFailed = false;  ///< the last of each
+    std::optional<Waveform> wave;                   ///< none: the lens rests
 
     bool slotted() const { return patterns && frameShown && !whiteShown; }
+    /// Steady white everywhere, as far as anybody can see.
+    bool lit() const { return ownWhite || (whiteShown && (patterns || seesVideo)); }
     bool called(const std::string& call) {
         log.push_back(call);
         return failsAt && failsAt(call);
     }
     void slottedNever(const std::string& at) {
-        const bool unreachable = whiteFailed && showVideoFailed;
+        const bool unreachable = whiteFailed && plainFailed;
         if (slotted() && !unreachable) violations.push_back("slotted light at " + at);
     }
     void judged(const std::string& at) {
@@ -89,12 +93,27 @@ public:
         return told("board: start " + std::to_string(sequence.entries.size()), [&] {
             room_.slottedNever("a change of the slot rate");
             room_.patterns = true;
+            room_.ownWhite = false;
         });
     }
     Result<void> showVideo(devices::Waiting) override {
-        auto done = told("board: video", [&] { room_.patterns = false; });
-        room_.showVideoFailed = !done;
+        auto done = told("board: video", [&] { room_.patterns = room_.ownWhite = false; });
+        room_.plainFailed = !done;
         return done;
+    }
+    Result<void> showOwnWhite(devices::Waiting) override {
+        auto done = told("board: own white", [&] {
+            room_.patterns = false;
+            room_.ownWhite = true;
+        });
+        room_.plainFailed = !done;
+        return done;
+    }
+    Result<bool> seesVideo() override {
+        auto asked = told("board: sees video", [] {});
+        room_.plainFailed = !asked;
+        if (!asked) return tl::unexpected(asked.error());
+        return room_.seesVideo;
     }
     Result<devices::dlpc350::Watched> watch() override {
         auto asked = told("board: watch", [] {});
@@ -102,6 +121,8 @@ public:
         devices::dlpc350::Watched seen;
         seen.display = room_.patterns ? devices::dlpc350::Display::pattern : devices::dlpc350::Display::video;
         seen.run = room_.patterns ? devices::dlpc350::PatternRun::running : devices::dlpc350::PatternRun::stopped;
+        if (room_.ownWhite) seen.source = devices::dlpc350::Source::testPattern;
+        seen.seesVideo = room_.patterns || room_.ownWhite || room_.seesVideo;
         seen.troubles = room_.troubles;
         seen.playing = room_.patterns && seen.troubles.empty();
         return seen;
@@ -113,7 +134,7 @@ private:
     Result<void> told(const std::string& call, Effect effect) {
         const bool failing = room_.called(call);
         callsWhileGone_ += room_.boardGone ? 1 : 0;
-        if (callsWhileGone_ > 2 || (callsWhileGone_ == 2 && call != "board: video"))
+        if (callsWhileGone_ > 2 || (callsWhileGone_ == 2 && call != "board: video" && call != "board: own white"))
             room_.violations.push_back(call + " on a board that is gone");
         if (room_.boardGone || (failing && !room_.failsAfterEffect)) return scriptedFailure(call);
         effect();
@@ -212,7 +233,9 @@ struct ScriptedRig {
     std::vector<std::string> orders() {
         std::vector<std::string> told;
         for (const auto& call : room.log)
-            if (call != "board: watch" && call != "lens: heartbeat" && call != "lens: follow") told.push_back(call);
+            if (call != "board: watch" && call != "board: sees video" && call != "lens: heartbeat" &&
+                call != "lens: follow")
+                told.push_back(call);
         room.log.clear();
         return told;
     }
