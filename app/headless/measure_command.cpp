@@ -31,6 +31,7 @@ ordered_json asJson(const devices::Spread& spread) {
 void print(const devices::EdgeDelays& delays, bool json) {
     if (json) {
         ordered_json out{{"delay", asJson(delays.delay)},
+                         {"mean_s", delays.mean.si()},
                          {"trigger_interval_s", delays.triggerInterval.si()},
                          {"triggers", delays.triggers},
                          {"missing", delays.missing},
@@ -42,7 +43,7 @@ void print(const devices::EdgeDelays& delays, bool json) {
         std::cout << out.dump(2) << '\n';
         return;
     }
-    std::cout << "Light comes " << ms(delays.delay.median) << " after its trigger (every " << ms(delays.triggerInterval)
+    std::cout << "Light comes " << ms(delays.mean) << " after its trigger (every " << ms(delays.triggerInterval)
               << "), +-" << ms(delays.delay.deviation) << "; 9 of 10 within " << ms(delays.delay.low) << " to "
               << ms(delays.delay.high) << ".\n"
               << delays.triggers << " triggers, " << delays.missing << " without light, " << delays.extra

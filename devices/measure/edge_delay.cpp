@@ -78,6 +78,18 @@ std::vector<LightEdge> counted(const std::vector<LightEdge>& all, const std::vec
     return static_cast<double>(rising.size()) > 0.75 * frames ? rising : any;
 }
 
+/// Of those nearer to the median than one sample, or than usual delays scatter: what is farther off is no measurement.
+Second meanNear(const std::vector<double>& delays, const Spread& spread, double sample_s) {
+    const double near = std::max(1.5 * sample_s, 3.0 * spread.deviation.si());
+    double sum = 0.0, counted = 0.0;
+    for (const double delay : delays) {
+        if (std::abs(delay - spread.median.si()) > near) continue;
+        sum += delay;
+        counted += 1.0;
+    }
+    return counted > 0.0 ? Second::fromSi(sum / counted) : spread.median;
+}
+
 double medianDelay(const std::vector<LightEdge>& edges, const std::vector<double>& delays, bool rising) {
     std::vector<double> ofKind;
     for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -150,6 +162,7 @@ Result<EdgeDelays> delaysIn(const Recording& recording, Second shortest) {
         }
     }
     delays.delay = spreadOf(delays.delay_s);
+    delays.mean = meanNear(delays.delay_s, delays.delay, 1.0 / recording.samplesPerSecond);
     delays.confidence = confidenceOf(delays.contrast, kept.size(), delays.missing + delays.extra);
     return delays;
 }

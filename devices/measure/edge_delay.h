@@ -46,6 +46,10 @@ const char* word(Confidence confidence);
 struct EdgeDelays {
     std::vector<double> delay_s;  ///< of each light edge that belongs to a trigger, in order
     Spread delay;
+    /// Of the delays near the usual one. A trigger's bare edge and light's are each known to half a sample, so single
+    /// delays, and their median with them, jump by whole samples; over triggers that drift along the samples, as those
+    /// of a projector with a clock of its own do, that averages out. In step with the samples it never does.
+    Second mean;
     /// By how much falling edges come later than rising ones; absent where only one kind is counted. `delay` is then of
     /// rising edges, and falling ones less this.
     std::optional<Second> fallingLater;

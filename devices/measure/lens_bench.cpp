@@ -64,7 +64,9 @@ Result<Value> LensBench::rested(Result<Value> result) {
 Result<HeardBlock> LensBench::listened() {
     if (setup_.stop && setup_.stop()) return fail(Fault::device, "Measuring was stopped; the lenses rest.");
     if (auto well = output_.heartbeat(); !well) return tl::unexpected(std::move(well.error()));
-    return input_.take();
+    auto heard = input_.take();
+    if (heard && setup_.watch.heard && !heard->second.empty()) setup_.watch.heard(*heard, input_.samplesPerSecond());
+    return heard;
 }
 
 Result<void> LensBench::played(const Harmonics& drive_A, Hertz rate) {

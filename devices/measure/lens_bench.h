@@ -8,6 +8,7 @@
 #include "core/document/wearer.h"
 #include "core/lens/harmonics.h"
 #include "devices/clock.h"
+#include "devices/measure/measure_watch.h"
 #include "devices/usb1208/analog_input.h"
 #include "devices/usb1208/lens_output.h"
 
@@ -19,6 +20,7 @@ struct LensBenchSetup {
     int periods = 24;                       ///< averaged
     Second patience = Second::fromSi(3.0);  ///< for a lens to come to rest, or to repeat
     std::function<bool()> stop;             ///< true: end with an error, the lenses at rest
+    MeasureWatch watch;
 };
 
 /// The photodiode while the lens's current stands still.

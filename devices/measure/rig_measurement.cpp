@@ -45,14 +45,17 @@ Ampere currentAtRest(const std::vector<StaticPower>& powers, Dioptre power) {
     return powers.back().current;
 }
 
-Result<EdgeDelays> heardDelays(AnalogInput& input, const Clock& clock, Second time) {
+Result<EdgeDelays> heardDelays(AnalogInput& input, const Clock& clock, Second time, const MeasureWatch& watch,
+                               const std::function<bool()>& stop) {
     Recording recording;
     recording.samplesPerSecond = input.samplesPerSecond();
     const auto wanted = static_cast<std::size_t>(time.si() * recording.samplesPerSecond);
     const auto until = clock.now() + std::chrono::nanoseconds(static_cast<std::int64_t>(2e9 * time.si()));
     while (recording.light.size() < wanted) {
+        if (stop && stop()) return fail(Fault::device, "Measuring was stopped; the lenses rest.");
         const auto heard = input.take();
         if (!heard) return tl::unexpected(heard.error());
+        if (watch.heard && !heard->second.empty()) watch.heard(*heard, recording.samplesPerSecond);
         recording.trigger.insert(recording.trigger.end(), heard->trigger.begin(), heard->trigger.end());
         recording.light.insert(recording.light.end(), heard->second.begin(), heard->second.end());
         if (clock.now() > until) return fail(Fault::device, "The DAC box has stopped listening. Connect it again.");
@@ -64,6 +67,7 @@ Result<EdgeDelays> heardDelays(AnalogInput& input, const Clock& clock, Second ti
     for (double& delay : delays->delay_s)
         delay += later;
     delays->delay = spreadOf(delays->delay_s);
+    delays->mean = delays->mean + Second::fromSi(later);
     if (delays->confidence == Confidence::poor)
         return fail(Fault::device,
                     text("Light came after %d of %d triggers, with %d flashes of something else: too few to "
@@ -95,6 +99,7 @@ LensBench RigMeasurement::benchOn(Opened& devices) const {
     setup.eye = setup_.eye;
     setup.periods = setup_.periods;
     setup.stop = setup_.stop;
+    setup.watch = setup_.watch;
     return LensBench(*devices.output, *devices.input, std::move(setup), clock_);
 }
 
@@ -133,7 +138,9 @@ StepOutcome RigMeasurement::projector() {
         if (auto begun = setup_.flashes(true); !begun) return failed(begun.error());
     }
     auto devices = opened();
-    Result<EdgeDelays> delays = devices ? heardDelays(*devices->input, clock_) : tl::unexpected(devices.error());
+    Result<EdgeDelays> delays =
+        devices ? heardDelays(*devices->input, clock_, Second::fromSi(2.0), setup_.watch, setup_.stop)
+                : tl::unexpected(devices.error());
     if (setup_.flashes) {
         if (auto ended = setup_.flashes(false); !ended && delays) return failed(ended.error());
     }
@@ -142,7 +149,7 @@ StepOutcome RigMeasurement::projector() {
     outcome.good = true;
     outcome.measured =
         text("%.3f ms after the trigger, +-%.3f ms, over %d triggers (%d missing, %d too many); confidence %s",
-             1e3 * delays->delay.median.si(), 1e3 * delays->delay.deviation.si(), delays->triggers, delays->missing,
+             1e3 * delays->mean.si(), 1e3 * delays->delay.deviation.si(), delays->triggers, delays->missing,
              delays->extra, word(delays->confidence));
     measured_.delay = *std::move(delays);
     return outcome;
@@ -230,8 +237,13 @@ StepOutcome RigMeasurement::recorded(LensBench& bench, const MeasureSaid& said) 
     measured_.waves.clear();
     if (!measured_.sweep) return {false, "", "Powers at rest must be measured first."};
     const DriveLimits within = limits();
-    auto waves = recordedWaves(photodiodeRecorder(bench, recording(within)), *measured_.sweep, within, setup_.rate,
-                               setup_.waves, said);
+    const RecordLens recorder = [this, record = photodiodeRecorder(bench, recording(within))](const Harmonics& drive,
+                                                                                              Hertz rate) {
+        auto wave = record(drive, rate);
+        if (wave && setup_.watch.recorded) setup_.watch.recorded(*wave);
+        return wave;
+    };
+    auto waves = recordedWaves(recorder, *measured_.sweep, within, setup_.rate, setup_.waves, said);
     if (!waves) return failed(waves.error());
     double noise_D = 0.0, low = HUGE_VAL, high = -HUGE_VAL;
     for (const LensRecord& wave : *waves) {

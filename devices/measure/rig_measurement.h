@@ -27,6 +27,7 @@ struct RigMeasurementSetup {
     /// Begins or ends flashes of the projector at each trigger; empty: somebody else sees to it.
     std::function<Result<void>(bool flash)> flashes;
     std::function<bool()> stop;  ///< true: the step ends, not good, the lenses at rest
+    MeasureWatch watch;
 };
 
 /// What was measured so far; a step that is done again replaces its own.
@@ -76,7 +77,8 @@ private:
 Ampere currentAtRest(const std::vector<StaticPower>& powers, Dioptre power);
 
 /// What AI0 (TRIG_OUT_2) and AI1 (photodiode) hear for `time`, as `delaysIn` judges it; light is converted 21 us after
-/// the trigger, which is accounted for. Refused too: a delay of poor confidence.
-Result<EdgeDelays> heardDelays(AnalogInput& input, const Clock& clock, Second time = Second::fromSi(2.0));
+/// the trigger, which is accounted for. Refused too: a delay of poor confidence, and a `stop` that says true.
+Result<EdgeDelays> heardDelays(AnalogInput& input, const Clock& clock, Second time = Second::fromSi(2.0),
+                               const MeasureWatch& watch = {}, const std::function<bool()>& stop = {});
 
 }  // namespace ilf::devices

@@ -31,6 +31,10 @@ StepWords wordsOf(MeasureStep step, Eye eye) {
     return {};
 }
 
+bool needsHands(MeasureStep step) {
+    return step == MeasureStep::projector || step == MeasureStep::dark || step == MeasureStep::light;
+}
+
 MeasureWizard::MeasureWizard(std::vector<MeasureStep> steps)
     : steps_(std::move(steps)), state_(steps_.empty() ? State::done : State::connecting) {}
 

@@ -25,6 +25,8 @@ struct StepWords {
     std::string title, connect, expect;
 };
 StepWords wordsOf(MeasureStep step, Eye eye);
+/// False: nothing needs to be connected, switched or moved before it.
+bool needsHands(MeasureStep step);
 
 /// What came of a step. `measured` says the numbers, `advice` what would help where they are not good.
 struct StepOutcome {

@@ -150,6 +150,47 @@ TEST_CASE("a known delay is measured through noise, hum and drift") {
     CHECK(std::abs(delays->fallingLater->si()) < 50e-6);
 }
 
+TEST_CASE("bare edges that drift along the samples give a delay far finer than a sample, without bias") {
+    constexpr double kRate = 24000.0, kInterval_s = (1.0 + 40e-6) / 60.0;
+    double sum_s = 0.0;
+    int measured = 0;
+    for (const double first_s : {0.0, 9e-6, 21e-6, 33e-6}) {
+        for (const double delay_s : {0.46e-3, 0.47e-3, 0.4805e-3, 0.9e-3}) {
+            CAPTURE(first_s);
+            CAPTURE(delay_s);
+            Recording recording{kRate, {}, {}};
+            for (int i = 0; i < 48000; ++i) {
+                const double since = std::fmod(i / kRate + kInterval_s - first_s, kInterval_s);
+                recording.trigger.push_back(since < 0.0005 ? 3.3 : 0.0);
+                recording.light.push_back(since >= delay_s && since < delay_s + 2e-3 ? 1.0 : 0.0);
+            }
+            const auto delays = delaysIn(recording, 0.6_ms);
+            REQUIRE_MESSAGE(delays, delays.error().what);
+            const double off_s = delays->mean.si() - delay_s;
+            CHECK(std::abs(off_s) < 8e-6);  // a sample takes 42 us
+            sum_s += off_s;
+            ++measured;
+        }
+    }
+    CHECK(std::abs(sum_s / measured) < 3e-6);
+}
+
+TEST_CASE("a photodiode that looks away now and then does not move the mean delay") {
+    Shown shown;
+    shown.frames = inTurn(240);
+    shown.slow_s = 10e-6;
+    shown.noise_V = 0.002;
+    auto recording = shown.recorded();
+    const auto before = delaysIn(recording);
+    REQUIRE(before);
+    // One edge of light comes 3 ms late.
+    const auto from = static_cast<std::size_t>((0.02 + 100.0 / 60.0 + 0.0004) * shown.rate);
+    std::fill_n(recording.light.begin() + static_cast<std::ptrdiff_t>(from), 72, recording.light[from - 4]);
+    const auto after = delaysIn(recording);
+    REQUIRE_MESSAGE(after, after.error().what);
+    CHECK(std::abs((after->mean - before->mean).si()) < 2e-6);
+}
+
 TEST_CASE("jitter of a projector is told, and a slow photodiode moves the delay by as much as is said") {
     for (const double slow_s : {10e-6, 0.5e-3, 3e-3}) {
         CAPTURE(slow_s);
