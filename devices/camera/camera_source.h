@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/registration/registration.h"
 #include "devices/camera/frame.h"
 
 namespace ilf::devices {
@@ -21,6 +22,17 @@ public:
     /// Exposure and white balance stay as they are (true) or follow the scene (false). Refused by sources without
     /// either.
     virtual Result<void> lockExposure(bool locked) = 0;
+    /// Light is gathered for this long in each frame from now on; gives what was set. Refused by sources that cannot.
+    virtual Result<Second> setExposure(Second exposure) {
+        static_cast<void>(exposure);
+        return fail(Fault::unsupported, name() + " does not let its exposure be set.");
+    }
+    /// Whose pictures these are and how they are cut out of the sensor. A source that does not know says its id alone.
+    virtual CameraMode mode() const {
+        CameraMode known;
+        known.device = id();
+        return known;
+    }
     /// Goes to 0..1 of a video; no effect on others.
     virtual void seek(double position) { static_cast<void>(position); }
     /// A video stands still at its end on purpose: that is no frozen camera.
@@ -32,10 +44,13 @@ public:
     virtual std::string id() const = 0;
 };
 
-/// Opens one of the three by its id (see listCameras) or a video file by its path.
+/// Opens a camera by its id (see listCameras) or a video file by its path. The emulated camera looks at what the output
+/// core of the usual runtime directory shows; its id may go on with words (devices/emulated_scene/scene_wish.h).
 Result<std::unique_ptr<CameraSource>> openCameraSource(const std::string& idOrPath);
 
 /// The id of the simulated camera, which is always there.
 inline const std::string kSimulatedCameraId = "simulated";
+/// The id of the camera that sees the emulated scene in the light the devices show; always there as well.
+inline const std::string kEmulatedCameraId = "emulated";
 
 }  // namespace ilf::devices

@@ -45,6 +45,7 @@ std::vector<CameraEntry> listCameras(const fs::path& v4l) {
     addFrom(v4l / "by-id", false, seen, cameras);
     addFrom(v4l / "by-path", true, seen, cameras);
     cameras.push_back({kSimulatedCameraId, "Simulated camera", {}, false});
+    cameras.push_back({kEmulatedCameraId, "Emulated camera (sees the emulated scene)", {}, false});
     return cameras;
 }
 

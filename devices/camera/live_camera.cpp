@@ -1,5 +1,7 @@
 #include "devices/camera/live_camera.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <exception>
 #include <opencv2/core.hpp>
@@ -10,6 +12,7 @@
 #include "devices/camera/list.h"
 #include "devices/camera/simulated_camera.h"
 #include "devices/camera/video_file.h"
+#include "devices/emulated_scene/emulated_camera.h"
 
 namespace ilf::devices {
 namespace {
@@ -26,6 +29,7 @@ public:
             cv::Mat mat;
             if (capture_.read(mat)) {
                 Image<std::uint8_t> rgb = rgbOf(mat);
+                if (!rgb.empty()) size_ = rgb.size();
                 if (!rgb.empty()) return Frame{std::move(rgb), steadyNow(), ++number_, 0.0};
             }
         } catch (const std::exception&) {  // told below
@@ -49,12 +53,33 @@ public:
         }
     }
 
+    Result<Second> setExposure(Second exposure) override {
+        try {
+            // V4L2_CID_EXPOSURE_ABSOLUTE counts in 100 us; taken in manual exposure only.
+            capture_.set(cv::CAP_PROP_AUTO_EXPOSURE, 1.0);
+            const double asked = std::max(1.0, std::round(exposure.si() * 1e4));
+            if (capture_.set(cv::CAP_PROP_EXPOSURE, asked)) {
+                const double told = capture_.get(cv::CAP_PROP_EXPOSURE);
+                return Second::fromSi(1e-4 * (told > 0.0 ? told : asked));
+            }
+        } catch (const std::exception&) {  // told below
+        }
+        return fail(Fault::unsupported, name_ + " does not let its exposure be set.");
+    }
+    CameraMode mode() const override {
+        CameraMode mode;
+        mode.device = id_;
+        mode.picture = size_;
+        return mode;
+    }
+
     std::string name() const override { return name_; }
     std::string id() const override { return id_; }
 
 private:
     std::string id_, name_;
     cv::VideoCapture capture_;
+    Size size_;  ///< of the newest picture
     std::uint64_t number_ = 0;
 };
 
@@ -81,6 +106,7 @@ Result<std::unique_ptr<CameraSource>> openLiveCamera(const std::string& id, cons
 
 Result<std::unique_ptr<CameraSource>> openCameraSource(const std::string& idOrPath) {
     if (idOrPath == kSimulatedCameraId) return std::make_unique<SimulatedCamera>();
+    if (isEmulatedCamera(idOrPath)) return openEmulatedCamera(idOrPath);
     if (idOrPath.starts_with("/dev/")) return openLiveCamera(idOrPath);
     return openVideoFile(idOrPath);
 }

@@ -126,13 +126,14 @@ TEST_CASE("cameras: found by id whatever their order, each once, ports only wher
     fs::create_symlink(folder.path / "video0", v4l / "by-path/pci-0000-usb-0:1-video-index0");
     fs::create_symlink(folder.path / "video2", v4l / "by-path/pci-0000-usb-0:2-video-index0");
     auto cameras = listCameras(v4l);
-    REQUIRE(cameras.size() == 3);
+    REQUIRE(cameras.size() == 4);
     CHECK(cameras[0].name == "Maker Model SN1");
     CHECK(cameras[0].id == first);
     CHECK_FALSE(cameras[0].byPort);
     CHECK(cameras[1].byPort);
     CHECK(contains(cameras[1].name, "at port"));
     CHECK(cameras[2].name == "Simulated camera");
+    CHECK(cameras[3].id == kEmulatedCameraId);
 
     // Plugged in the other way round: another node, the same id.
     fs::remove(first);
@@ -141,5 +142,5 @@ TEST_CASE("cameras: found by id whatever their order, each once, ports only wher
     const auto gone = deviceOf(v4l / "by-id/usb-Other_Camera-video-index0", v4l);
     CHECK(contains(gone.error().what, "\"Other Camera\" is not plugged in. Others are: Maker Model SN1"));
     CHECK(contains(openLiveCamera(first, v4l).error().what, "cannot be opened"));  // a file is no camera
-    CHECK(listCameras(folder.path / "nothing").size() == 1);
+    CHECK(listCameras(folder.path / "nothing").size() == 2);
 }

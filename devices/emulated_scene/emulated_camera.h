@@ -1,0 +1,63 @@
+// A camera that nobody has to own: it sees the emulated scene in the light that the devices' process shows now.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "devices/camera/camera_source.h"
+#include "devices/emulated_scene/light_transport.h"
+#include "devices/emulated_scene/scene_wish.h"
+#include "devices/emulated_scene/sensor.h"
+#include "devices/emulated_scene/shown_light.h"
+
+namespace ilf::devices {
+
+/// "emulated" or "emulated:WORDS", see SceneWish.
+bool isEmulatedCamera(const std::string& id);
+/// At the usual runtime directory, or at another. Refused: words that are none.
+Result<std::unique_ptr<CameraSource>> openEmulatedCamera(const std::string& id);
+Result<std::unique_ptr<CameraSource>> openEmulatedCamera(const std::string& id,
+                                                         const std::filesystem::path& runtimeDirectory);
+
+/// The scene as wished for, with its camera cut out of its sensor, moved and reached into as it is wished.
+scene::Stage wishedStage(const SceneWish& wish, Size raster, bool faulty = true);
+
+/// Up to 20 frames a second, in real time. Nothing of it is measured: every name says "emulated".
+class EmulatedCamera : public CameraSource {
+public:
+    EmulatedCamera(std::filesystem::path runtimeDirectory, SceneWish wish);
+
+    Result<std::optional<Frame>> read() override;
+    Result<void> lockExposure(bool locked) override;
+    Result<Second> setExposure(Second exposure) override;
+    CameraMode mode() const override;
+    std::string name() const override { return "Emulated camera"; }
+    std::string id() const override { return kEmulatedCameraId; }
+
+    /// Of the newest frame: what it truly saw. nullptr before the first.
+    const scene::LightTransport* truth() const { return transport_.get(); }
+
+private:
+    void lookForWishes();
+    void arrange(Size raster, bool faulty);
+    void throughLens(std::vector<float>& light) const;
+    void adapt(const Image<std::uint8_t>& picture);
+
+    std::filesystem::path directory_;
+    SceneWish wish_;
+    std::filesystem::file_time_type wishedAt_{};
+    ShownLightReader shown_;
+    std::shared_ptr<const scene::LightTransport> transport_;
+    SceneWish arranged_;  ///< what transport_ was made for
+    scene::SensorSettings sensor_;
+    double autoGain_ = 1.0;
+    bool locked_ = false;
+    std::deque<Image<std::uint8_t>> late_;  ///< pictures that wait for their turn
+    std::vector<float> lux_;
+    std::uint64_t number_ = 0, sinceWish_ = 0;
+    Second due_;
+};
+
+}  // namespace ilf::devices

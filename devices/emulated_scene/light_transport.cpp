@@ -1,0 +1,304 @@
+#include "devices/emulated_scene/light_transport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/parallel.h"
+#include "devices/emulated_scene/second_bounce.h"
+
+namespace ilf::devices::scene {
+namespace {
+
+constexpr int kFine = 4;    // rays along a pixel's side where something ends inside it
+constexpr int kCoarse = 3;  // looks along a pixel's side where nothing does
+constexpr float kHighlight = 40.0F;
+/// Luminance of red, green and blue (ITU-R BT.709).
+constexpr std::array<float, 3> kLuminance{0.2126F, 0.7152F, 0.0722F};
+
+/// What one ray of the camera found.
+struct Seen {
+    std::int32_t surface = -1;  ///< -1: nothing
+    std::int32_t look = 0;
+    bool lit = false;
+    float x = 0, y = 0;        ///< on the projector's raster
+    float u = 0, v = 0;        ///< on the surface
+    float depth = 0;           ///< along the ray
+    float lux = 0, shine = 0;  ///< of full light: falling on it, and thrown back as a highlight
+};
+
+struct Tap {
+    std::uint32_t pixel;  ///< of the raster
+    float weight;
+};
+
+std::array<float, 3> colourAt(const Look& look, float u, float v) {
+    std::array<float, 3> colour = look.colour;
+    if (look.squaresAcross > 0) {
+        const auto column = static_cast<int>(std::floor(u * static_cast<float>(look.squaresAcross)));
+        const auto row = static_cast<int>(std::floor(v * static_cast<float>(look.squaresDown)));
+        if ((column + row) % 2 == 0) colour.fill(look.dark);
+    }
+    if (!look.texture.empty()) {
+        const int w = look.texture.width(), h = look.texture.height();
+        const auto wrapped = [](float t, int n) {
+            return std::min(n - 1, static_cast<int>((t - std::floor(t)) * static_cast<float>(n)));
+        };
+        const float* texel = look.texture.row(wrapped(v, h)) + 3 * wrapped(u, w);
+        for (std::size_t c = 0; c < 3; ++c)
+            colour[c] *= texel[c];
+    }
+    return colour;
+}
+
+float luminance(const std::array<float, 3>& colour) {
+    return kLuminance[0] * colour[0] + kLuminance[1] * colour[1] + kLuminance[2] * colour[2];
+}
+
+Seen between(const Seen& a, const Seen& b, float t) {
+    Seen s = a;
+    const auto mix = [t](float p, float q) { return p + t * (q - p); };
+    s.x = mix(a.x, b.x);
+    s.y = mix(a.y, b.y);
+    s.u = mix(a.u, b.u);
+    s.v = mix(a.v, b.v);
+    s.lux = mix(a.lux, b.lux);
+    s.shine = mix(a.shine, b.shine);
+    return s;
+}
+
+/// How much of [x - s / 2, x + s / 2] lies beyond the next whole number.
+float beyond(float x, float s) { return std::clamp((x - std::floor(x) + 0.5F * s - 1.0F) / s, 0.0F, 1.0F); }
+/// And how much before the one below.
+float before(float x, float s) { return std::clamp((0.5F * s - (x - std::floor(x))) / s, 0.0F, 1.0F); }
+
+/// Gathers the looks into one pixel: which projector pixels light it, how strongly, and its colour.
+class Pixel {
+public:
+    explicit Pixel(Size raster) : raster_(raster) {}
+
+    void clear() {
+        taps_.clear();
+        albedo_ = 0.0F;
+        colour_ = {};
+    }
+    /// `spanX`, `spanY`: how much of the raster the look covers; `share`: of the camera pixel.
+    void look(const Seen& seen, const Look& look, float spanX, float spanY, float share) {
+        if (seen.surface < 0) return;
+        const auto colour = colourAt(look, seen.u, seen.v);
+        const float grey = luminance(colour);
+        albedo_ += share * grey;
+        for (std::size_t c = 0; c < 3; ++c)
+            colour_[c] += share * colour[c];
+        if (!seen.lit) return;
+        const float strength = share * (grey * seen.lux + look.gloss * seen.shine);
+        spanX = std::clamp(spanX, 1e-3F, 1.0F);
+        spanY = std::clamp(spanY, 1e-3F, 1.0F);
+        const float right = beyond(seen.x, spanX), left = before(seen.x, spanX);
+        const float below = beyond(seen.y, spanY), above = before(seen.y, spanY);
+        const int x = static_cast<int>(std::floor(seen.x)), y = static_cast<int>(std::floor(seen.y));
+        const float acrossShares[3] = {left, 1.0F - left - right, right};
+        const float downShares[3] = {above, 1.0F - above - below, below};
+        for (int j = -1; j <= 1; ++j) {
+            for (int i = -1; i <= 1; ++i)
+                add(x + i, y + j, strength * acrossShares[i + 1] * downShares[j + 1]);
+        }
+    }
+    const std::vector<Tap>& taps() const { return taps_; }
+    float albedo() const { return albedo_; }
+    std::uint8_t tint(std::size_t channel) const {
+        if (albedo_ <= 0.0F) return 64;
+        return static_cast<std::uint8_t>(std::clamp(64.0F * colour_[channel] / albedo_ + 0.5F, 0.0F, 255.0F));
+    }
+
+private:
+    void add(int x, int y, float weight) {
+        if (!(weight > 0.0F) || x < 0 || y < 0 || x >= raster_.width || y >= raster_.height) return;
+        const auto index = static_cast<std::uint32_t>(y * raster_.width + x);
+        for (Tap& tap : taps_) {
+            if (tap.pixel == index) {
+                tap.weight += weight;
+                return;
+            }
+        }
+        taps_.push_back({index, weight});
+    }
+
+    Size raster_;
+    std::vector<Tap> taps_;
+    float albedo_ = 0.0F;
+    std::array<float, 3> colour_{};
+};
+
+}  // namespace
+
+struct LightTransport::Impl {
+    Stage stage;
+    RayTree tree;
+    std::vector<std::uint32_t> firstTap;  // of each camera pixel, and one past the last
+    std::vector<Tap> taps;
+    std::vector<float> albedo;
+    std::vector<std::uint8_t> tint;
+    SecondBounce bounce;
+
+    explicit Impl(Stage given) : stage(std::move(given)), tree(stage.things.triangles) { look(); }
+
+    Seen seen(double x, double y, Truth* truth = nullptr) const {
+        Seen out;
+        const Vec3 eye = stage.cameraAt.at, along = stage.cameraAt.turnedToWorld(stage.camera.rayThrough(x, y));
+        const auto met = tree.first(eye, along);
+        if (!met) return out;
+        const Triangle& t = tree.triangle(met->triangle);
+        const double a = 1.0 - met->b - met->c;
+        const Vec3 p = eye + met->distance * along;
+        Vec3 n = unit(a * t.normal[0] + met->b * t.normal[1] + met->c * t.normal[2]);
+        if (dot(n, along) > 0.0) n = -1.0 * n;
+        out.surface = t.surface;
+        out.look = t.look;
+        out.depth = static_cast<float>(met->distance);  // the ray's direction has z = 1
+        for (std::size_t i = 0; i < 2; ++i) {
+            const double uv = a * static_cast<double>(t.uv[0][i]) + met->b * static_cast<double>(t.uv[1][i]) +
+                              met->c * static_cast<double>(t.uv[2][i]);
+            (i == 0 ? out.u : out.v) = static_cast<float>(uv);
+        }
+        const Vec3 toLamp = stage.projectorAt.at - p;
+        const auto raster = stage.projector.rasterOf(stage.projectorAt.fromWorld(p));
+        if (raster) {
+            const double away = length(toLamp), cosine = dot(n, toLamp) / away;
+            // A little off the surface, so that it does not shade itself where it is made of flat faces.
+            out.lit = cosine > 0.0 && !tree.blocked(p + 2e-5 * n, toLamp, 1.0);
+            out.x = static_cast<float>((*raster)[0]);
+            out.y = static_cast<float>((*raster)[1]);
+            out.lux = static_cast<float>(stage.projectorLux * std::max(0.0, cosine) / (away * away));
+            const Vec3 mirrored = 2.0 * dot(n, toLamp) * n - toLamp;
+            const double off = std::max(0.0, -dot(mirrored, along) / (away * length(along)));
+            out.shine = static_cast<float>(stage.projectorLux / (away * away)) *
+                        std::pow(static_cast<float>(off), kHighlight) * 20.0F;
+            if (truth != nullptr) truth->projector = *raster;
+        }
+        if (truth != nullptr) {
+            truth->depth_m = met->distance;
+            truth->world = p;
+            truth->lit = out.lit && raster.has_value();
+        }
+        return out;
+    }
+
+    /// All four corners of a pixel see the same, evenly.
+    static bool even(const Seen& a, const Seen& b, const Seen& c, const Seen& d) {
+        const auto like = [&a](const Seen& s) {
+            return s.surface == a.surface && s.lit == a.lit && std::abs(s.depth - a.depth) < 0.01F * a.depth &&
+                   std::abs(s.x - a.x) < 8.0F && std::abs(s.y - a.y) < 8.0F;
+        };
+        return like(b) && like(c) && like(d);
+    }
+
+    void gather(Pixel& pixel, const Seen* upper, const Seen* lower, int x, int y) const {
+        pixel.clear();
+        const Seen &a = upper[0], &b = upper[1], &c = lower[0], &d = lower[1];
+        const float acrossX = std::max(std::abs(b.x - a.x), std::abs(c.x - a.x)),
+                    acrossY = std::max(std::abs(b.y - a.y), std::abs(c.y - a.y));
+        if (even(a, b, c, d)) {
+            if (a.surface < 0) return;
+            const Look& look = stage.things.looks[static_cast<std::size_t>(a.look)];
+            for (int j = 0; j < kCoarse; ++j) {
+                for (int i = 0; i < kCoarse; ++i) {
+                    const float s = (static_cast<float>(i) + 0.5F) / kCoarse,
+                                t = (static_cast<float>(j) + 0.5F) / kCoarse;
+                    pixel.look(between(between(a, b, s), between(c, d, s), t), look, acrossX / kCoarse,
+                               acrossY / kCoarse, 1.0F / (kCoarse * kCoarse));
+                }
+            }
+            return;
+        }
+        for (int j = 0; j < kFine; ++j) {
+            for (int i = 0; i < kFine; ++i) {
+                const Seen s = seen(x + (i + 0.5) / kFine, y + (j + 0.5) / kFine);
+                if (s.surface < 0) continue;
+                pixel.look(s, stage.things.looks[static_cast<std::size_t>(s.look)], std::min(acrossX, 2.0F) / kFine,
+                           std::min(acrossY, 2.0F) / kFine, 1.0F / (kFine * kFine));
+            }
+        }
+    }
+
+    void look() {
+        const Size size = stage.camera.size;
+        const auto corners = static_cast<std::size_t>(size.width) + 1;
+        std::vector<Seen> grid(corners * (static_cast<std::size_t>(size.height) + 1));
+        parallelFor(size.height + 1, [&](int y) {
+            Seen* row = grid.data() + static_cast<std::size_t>(y) * corners;
+            for (int x = 0; x <= size.width; ++x)
+                row[x] = seen(x, y);
+        });
+        const auto count = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+        albedo.resize(count);
+        tint.resize(3 * count);
+        firstTap.assign(count + 1, 0);
+        std::vector<std::vector<Tap>> rows(static_cast<std::size_t>(size.height));
+        parallelFor(size.height, [&](int y) {
+            Pixel pixel(stage.projector.size);
+            auto& own = rows[static_cast<std::size_t>(y)];
+            for (int x = 0; x < size.width; ++x) {
+                const Seen* upper = grid.data() + static_cast<std::size_t>(y) * corners + x;
+                gather(pixel, upper, upper + corners, x, y);
+                const auto i =
+                    static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x);
+                own.insert(own.end(), pixel.taps().begin(), pixel.taps().end());
+                firstTap[i + 1] = static_cast<std::uint32_t>(pixel.taps().size());
+                albedo[i] = pixel.albedo();
+                for (std::size_t c = 0; c < 3; ++c)
+                    tint[3 * i + c] = pixel.tint(c);
+            }
+        });
+        for (std::size_t i = 1; i <= count; ++i)
+            firstTap[i] += firstTap[i - 1];
+        taps.reserve(firstTap.back());
+        for (const auto& row : rows)
+            taps.insert(taps.end(), row.begin(), row.end());
+        if (stage.bounce > 0.0) bounce = SecondBounce(tree, stage.camera, stage.cameraAt, stage.bounce);
+    }
+};
+
+LightTransport::LightTransport(Stage stage) : impl_(std::make_unique<Impl>(std::move(stage))) {}
+LightTransport::~LightTransport() = default;
+
+const Stage& LightTransport::stage() const { return impl_->stage; }
+const std::vector<std::uint8_t>& LightTransport::tint() const { return impl_->tint; }
+const std::vector<float>& LightTransport::albedo() const { return impl_->albedo; }
+
+std::optional<Truth> LightTransport::truth(double x, double y) const {
+    Truth truth;
+    if (impl_->seen(x, y, &truth).surface < 0) return std::nullopt;
+    return truth;
+}
+
+void LightTransport::shine(const std::vector<float>& light, double ambientLux, std::vector<float>& out) const {
+    const Impl& it = *impl_;
+    const Size size = it.stage.camera.size;
+    out.resize(it.albedo.size());
+    parallelFor((size.height + 31) / 32, [&](int band) {
+        const auto width = static_cast<std::size_t>(size.width);
+        const std::size_t begin = 32U * static_cast<std::size_t>(band) * width;
+        const std::size_t end = std::min(it.albedo.size(), begin + 32U * width);
+        const Tap* tap = it.taps.data() + it.firstTap[begin];
+        for (std::size_t i = begin; i < end; ++i) {
+            const Tap* const last = it.taps.data() + it.firstTap[i + 1];
+            float sum = 0.0F;
+            for (; tap != last; ++tap)
+                sum += tap->weight * light[tap->pixel];
+            out[i] = sum;
+        }
+    });
+    const auto ambient = static_cast<float>(ambientLux);
+    const std::vector<float> thrown = it.bounce.fallingOn(out);
+    parallelFor(size.height, [&](int y) {
+        const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width);
+        for (int x = 0; x < size.width; ++x) {
+            const std::size_t i = row + static_cast<std::size_t>(x);
+            const float more = thrown.empty() ? 0.0F : it.bounce.at(thrown, x, y);
+            out[i] += it.albedo[i] * (ambient + more);
+        }
+    });
+}
+
+}  // namespace ilf::devices::scene
