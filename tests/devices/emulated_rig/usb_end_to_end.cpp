@@ -39,6 +39,16 @@ LightComparison lightOf(RunningRig& rig, const Program& program, int bits, Recei
     return found;
 }
 
+/// Loads and swaps. A machine that is too busy to keep samples coming ends in safe light, as it should: then it is
+/// taken again, aloud, three times in all.
+Result<void> played(Stage& stage, const Program& program) {
+    for (int once = 1;; ++once) {
+        const auto swapped = stage.load(program).and_then([&] { return stage.swap(); });
+        if (swapped || once == 3 || swapped.error().what.find("too busy") == std::string::npos) return swapped;
+        MESSAGE("taken again: ", swapped.error().what);
+    }
+}
+
 }  // namespace
 
 TEST_CASE("emulated rig: what the stage plays arrives as light to the last pixel, and the lenses swing in step") {
@@ -52,9 +62,7 @@ TEST_CASE("emulated rig: what the stage plays arrives as light to the last pixel
         const auto stage = rig.stage(bits);
         for (std::uint32_t seed = 70; seed < 72; ++seed) {
             const Program program = playing(slots, seed);
-            const auto loaded = stage->load(program);
-            if (!loaded) FAIL(loaded.error().what);
-            const auto swapped = stage->swap();
+            const auto swapped = played(*stage, program);
             if (!swapped) FAIL(swapped.error().what);
             Received received;
             const auto found = lightOf(rig, program, bits, received);
