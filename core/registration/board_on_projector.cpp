@@ -137,8 +137,8 @@ Result<BoardView> boardView(std::vector<Point<CameraFrame>> corners, const Decod
     try {
         parallelFor(static_cast<int>(view.inCamera.size()), [&](int i) {
             const auto at = static_cast<std::size_t>(i);
-            // As far as the next corners and a little more: four squares, two of them white.
-            const double radius = std::clamp(0.9 * nearestOther(view.inCamera, at), 6.0, 80.0);
+            // Four squares, two of them white; the wider, the less the lens's bending is a homography's.
+            const double radius = std::clamp(0.7 * nearestOther(view.inCamera, at), 6.0, 40.0);
             const std::vector<Near> near = decodedAround(decoded, view.inCamera[at], radius);
             if (near.size() < 40 || !surrounds(near)) return;
             fits[at] = fitted(near);

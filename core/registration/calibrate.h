@@ -64,4 +64,7 @@ Result<CalibratedCamera> calibratedCamera(std::span<const BoardView> views, cons
 /// stay as they are.
 Result<ProcamCalibration> rescaled(ProcamCalibration calibration, Metre calibrated, Metre measured);
 
+/// Whether the numbers can be a calibration's: sizes and focal lengths above 0, finite, a rotation that is one.
+Result<void> checked(const ProcamCalibration& calibration);
+
 }  // namespace ilf

@@ -32,7 +32,7 @@ struct PairedRegistration {
 Result<PairedRegistration> registeredByCorners(const std::array<Point<CameraFrame>, 4>& corners, Size camera,
                                                Size projector);
 
-/// From at least four pairs; from five on, pairs that do not fit the others are left out and named. Refused in words:
+/// From at least four pairs; from six on, pairs that do not fit the others are left out and named. Refused in words:
 /// too few pairs, pairs on one line, a mirrored picture, pairs that do not fit each other.
 Result<PairedRegistration> registeredByPairs(std::span<const PointPair> pairs, Size camera, Size projector);
 
