@@ -141,6 +141,10 @@ std::vector<TimingRow> timingRows(const CoreStatus& core) {
 void devicesCard(Panel& p) {
     const CoreStatus& core = p.view.core;
     heading("DEVICES");
+    if (p.view.measuring && p.view.measuring->holdsDevices) {
+        wrapped("Lent to measuring: the output core is stopped and the display stays white.", colour::warn);
+        return;
+    }
     if (!core.connected) {
         wrapped("Not connected: what the room shows is not known here. The studio keeps trying.", colour::fault);
         rigChoice(p);

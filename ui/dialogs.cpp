@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 using Purpose = FileDialog::Purpose;
 
 bool saves(Purpose purpose) {
-    return purpose == Purpose::saveAs || purpose == Purpose::exportView || purpose == Purpose::saveRig;
+    return purpose == Purpose::saveAs || purpose == Purpose::exportView || purpose == Purpose::saveRig ||
+           purpose == Purpose::storeWaves;
 }
 
 const char* titleOf(Purpose purpose) {
@@ -36,6 +37,8 @@ const char* titleOf(Purpose purpose) {
         return "Open a rig";
     case Purpose::saveRig:
         return "Save the rig";
+    case Purpose::storeWaves:
+        return "Store what was measured";
     case Purpose::depthMap:
         break;
     }
@@ -94,6 +97,7 @@ bool accept(Panel& p, FileDialog& dialog) {
     if (dialog.purpose == Purpose::saveAs && path.extension() != ".ilf" && path.extension() != ".ilfd") path += ".ilf";
     if (dialog.purpose == Purpose::exportView && path.extension() != ".png") path += ".png";
     if (dialog.purpose == Purpose::saveRig && path.extension() != ".json") path += ".json";
+    if (dialog.purpose == Purpose::storeWaves && path.extension() != ".ilflens") path += ".ilflens";
     if (saves(dialog.purpose) && fs::exists(path, ignored) && !dialog.confirmOverwrite) {
         dialog.confirmOverwrite = true;
         return false;
@@ -120,6 +124,9 @@ bool accept(Panel& p, FileDialog& dialog) {
         break;
     case Purpose::saveRig:
         p.requests.push_back(SaveRig{path.string()});
+        break;
+    case Purpose::storeWaves:
+        p.requests.push_back(StoreMeasured{path.string()});
         break;
     case Purpose::depthMap:
         p.requests.push_back(LoadDepthMap{path.string(), 1.0_mm});
@@ -315,6 +322,8 @@ void openFileDialog(State& state, Purpose purpose, const View& view) {
     enter(dialog, folder);
     if (purpose == Purpose::exportView) dialog.name = view.document.name + ".png";
     if (purpose == Purpose::saveRig) dialog.name = view.document.rig.name + ".json";
+    if (purpose == Purpose::storeWaves)
+        dialog.name = state.measure.eye == Eye::left ? "lens-left.ilflens" : "lens-right.ilflens";
     state.fileDialog = std::move(dialog);
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/document/edit.h"
 #include "ui/commands.h"
+#include "ui/measure_view.h"
 
 namespace ilf::ui {
 
@@ -70,13 +71,32 @@ struct UseRig {
 struct SaveRig {
     std::string path;
 };
+/// Goes through the wizard that measures a rig; what does not belong to its state is not done.
+struct Measure {
+    enum class Step {
+        open,    ///< the page, with what it asks before the first step
+        go,      ///< what the step needs is connected
+        next,    ///< after a good outcome
+        again,   ///< the same step
+        back,    ///< the step before
+        cancel,  ///< the lenses go to rest and nothing is written; also closes the page
+        use,     ///< plan the project with what was stored
+    } step = Step::open;
+};
+struct StartMeasuring {
+    MeasureSetup setup;
+};
+/// Once every step was good.
+struct StoreMeasured {
+    std::string path;
+};
 /// Answer to the recovery question at start.
 struct Recover {
     enum class Choice { recover, openSaved, skip } choice = Choice::recover;
 };
 using Request = std::variant<EditRequest, CommitGesture, CancelGesture, RunCommand, OpenFile, SaveFile, ExportView,
                              OpenCamera, SeekVideo, SelectObject, SelectFlood, GoToHistory, AcknowledgeFault,
-                             LoadDepthMap, UseRig, SaveRig, Recover>;
+                             LoadDepthMap, UseRig, SaveRig, Measure, StartMeasuring, StoreMeasured, Recover>;
 using Requests = std::vector<Request>;
 
 }  // namespace ilf::ui

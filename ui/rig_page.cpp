@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "ui/devices_card.h"
+#include "ui/measure_page.h"
 #include "ui/widgets.h"
 
 namespace ilf::ui {
@@ -63,6 +64,7 @@ void outputCore(Panel& p) {
 
 void rigPage(Panel& p) {
     devicesCard(p);
+    measureButton(p);
     if (p.view.core.connected) outputCore(p);
     ImGui::Dummy({1, p.px(4)});
     heading("RIG");

@@ -15,6 +15,7 @@
 #include "core/perceived/perceived.h"
 #include "ui/commands.h"
 #include "ui/layout.h"
+#include "ui/measure_view.h"
 
 namespace ilf::ui {
 
@@ -71,7 +72,16 @@ struct FieldState {
 };
 
 struct FileDialog {
-    enum class Purpose { open, openScene, saveAs, exportView, depthMap, openRig, saveRig } purpose = Purpose::open;
+    enum class Purpose {
+        open,
+        openScene,
+        saveAs,
+        exportView,
+        depthMap,
+        openRig,
+        saveRig,
+        storeWaves
+    } purpose = Purpose::open;
     std::string folder;
     std::string name;
     struct Entry {
@@ -130,6 +140,7 @@ struct State {
 
     std::optional<FileDialog> fileDialog;
     std::optional<RecoveryQuestion> recovery;
+    MeasureSetup measure;   ///< being typed
     std::string rigWanted;  ///< asked for while something plays; waits for the operator's word
     bool shortcutsOpen = false, aboutOpen = false, popupsOpen = false;
     std::vector<Toast> toasts;

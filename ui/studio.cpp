@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/measure_page.h"
 #include "ui/panel.h"
 #include "ui/widgets.h"
 
@@ -67,14 +68,18 @@ Requests studio(const View& view, State& state, const Input& input) {
     p.at = layout(window, scale, state.panels);
 
     topBar(p);
-    canvas(p);
+    const bool measures = view.measuring.has_value();
+    if (measures)
+        measurePage(p);
+    else
+        canvas(p);
     if (!state.panels.hidden) {
         toolBar(p);
-        canvasHeader(p);
+        if (!measures) canvasHeader(p);
         regionsPanel(p);
         selectedPanel(p);
         pagesPanel(p);
-        chartsRow(p);
+        if (!measures) chartsRow(p);
         statusLine(p);
         splitters(p);
     }

@@ -43,6 +43,17 @@ void Link::restartCore(std::vector<std::string> arguments) {
     next_.reset();
 }
 
+void Link::lendDevices() {
+    const std::scoped_lock lock(mutex_);
+    lend_ = true;
+    next_.reset();
+}
+
+void Link::takeDevicesBack() {
+    const std::scoped_lock lock(mutex_);
+    lend_ = false;
+}
+
 void Link::run(std::stop_token stop) {
     LinkNews last;
     const auto publish = [&](const LinkNews& news) {
@@ -55,14 +66,17 @@ void Link::run(std::stop_token stop) {
     }
     devices::CoreLink core(runtimeDirectory_);
     auto heard = Clock::now();
+    std::optional<Result<void>> lent;  // as long as devices are lent
     while (!stop.stop_requested()) {
         std::optional<Sending> sending;
         bool safe = false;
         std::optional<std::vector<std::string>> restart;
+        bool lend = false;
         {
             const std::scoped_lock lock(mutex_);
             safe = std::exchange(safe_, false);
             restart = std::exchange(restart_, std::nullopt);
+            lend = lend_;
             if (core.status().connected) sending = std::exchange(next_, std::nullopt);
         }
         std::string trouble;
@@ -74,7 +88,17 @@ void Link::run(std::stop_token stop) {
             const auto started = devices::ensureCoreRunning(coreProgram_, runtimeDirectory_, coreArguments_);
             if (!started) trouble = started.error().what;
         }
-        if (safe) {
+        if (lend && !lent) {
+            lent = Result<void>();
+            if (devices::FileLock::holder(devices::supervisorLock(runtimeDirectory_)) &&
+                stopSupervisor(runtimeDirectory_, false) == 1)
+                lent = fail(Fault::device, "The output core does not let go of the rig: it does not stop. Stop it "
+                                           "with illuminatedfocus-core --stop, then begin again.");
+        } else if (!lend && lent) {
+            lent.reset();
+            heard = Clock::now() - kGone;
+        }
+        if (safe && !lent) {
             if (const auto done = core.safeLight(); !done) trouble = done.error().what;
         }
         if (sending) {
@@ -82,10 +106,11 @@ void Link::run(std::stop_token stop) {
             if (!sent) trouble = sent.error().what;
         }
         const auto status = core.poll(kPoll);
-        if (status || !trouble.empty()) publish({status ? *status : core.status(), trouble});
+        if (status || !trouble.empty() || lent.has_value() != last.lent.has_value())
+            publish({status ? *status : core.status(), trouble, lent});
         if (core.status().connected) {
             heard = Clock::now();
-        } else if (Clock::now() - heard > kGone) {
+        } else if (!lent && Clock::now() - heard > kGone) {
             heard = Clock::now();
             const auto started = devices::ensureCoreRunning(coreProgram_, runtimeDirectory_, coreArguments_);
             if (!started && started.error().what != last.trouble) publish({core.status(), started.error().what});

@@ -30,6 +30,7 @@ struct Sending {
 struct LinkNews {
     devices::Status status;
     std::string trouble;  ///< why no core could be started or a program not be sent; empty when all is well
+    std::optional<Result<void>> lent{};  ///< while devices are lent: the core has ended, or would not
 };
 
 class Link {
@@ -41,6 +42,10 @@ public:
     void safeLight();
     /// Stops the core that runs, in safe light, and starts one with these arguments.
     void restartCore(std::vector<std::string> arguments);
+    /// Stops the core, in safe light (a projector's display stays white), and starts none until devices are taken back:
+    /// somebody measures with them.
+    void lendDevices();
+    void takeDevicesBack();
     std::optional<LinkNews> tryTake() { return news_.tryTake(); }
 
 private:
@@ -54,6 +59,7 @@ private:
     std::optional<Sending> next_;
     bool safe_ = false;
     std::optional<std::vector<std::string>> restart_;
+    bool lend_ = false;
     Latest<LinkNews> news_;
     std::jthread thread_;  // last: joins before what it uses goes
 };

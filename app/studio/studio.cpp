@@ -100,7 +100,8 @@ Result<std::unique_ptr<Studio>> Studio::start(const StudioOptions& options) {
 Studio::Studio(StudioOptions options, std::vector<std::string> coreArguments, std::unique_ptr<Window> window,
                OpenedFile opened)
     : options_(std::move(options)), window_(std::move(window)), editor_(opened.document), keeper_(&Window::wake),
-      camera_(&Window::wake), selector_(&Window::wake), times_(!options_.frameTimes.empty()), changedAt_(Clock::now()),
+      camera_(&Window::wake), selector_(&Window::wake), measurer_(devices::runtimeDirectory(), &Window::wake),
+      times_(!options_.frameTimes.empty()), changedAt_(Clock::now()),
       worker_(*simulatedLens(options_.rig), &Window::wake),
       link_(options_.coreProgram, std::move(coreArguments), devices::runtimeDirectory(), &Window::wake) {
     if (!options_.resetLayout) ui_ = ui::withLayout(ui_, keeper_.layoutText());
@@ -193,6 +194,8 @@ void Studio::collect() {
     if (auto done = worker_.tryTake()) takeDone(*std::move(done));
     if (auto seen = worker_.tryTakeSeen()) takeSeen(*std::move(seen));
     if (auto news = link_.tryTake()) takeNews(*std::move(news));
+    if (measurer_.collect()) quietFrames_ = 0;
+    lendDevices();
     if (camera_.collect()) takeFrame();
     for (const std::string& sentence : camera_.takeSentences())
         say(sentence, ui::Tone::warning);
@@ -224,6 +227,7 @@ void Studio::takeSeen(Seen seen) {
 }
 
 void Studio::takeNews(LinkNews news) {
+    if (news.lent) measurer_.devicesAreFree(*news.lent);
     if (news.status.swapped_ns != 0) latency_.played(news.status.revisionPlayed, news.status.swapped_ns);
     if (news.status.light != core_.light || news.status.faults != core_.faults ||
         news.status.connected != core_.connected || news.status.revisionPlayed != core_.revisionPlayed) {
@@ -289,6 +293,10 @@ void Studio::postJob() {
 }
 
 void Studio::take() {
+    if (measurer_.busy()) {
+        liveTake_ = false;
+        return say("A rig is being measured: store or cancel that, then press TAKE.", ui::Tone::warning);
+    }
     if (!core_.connected) {
         liveTake_ = false;
         return say("The output core is not connected, so nothing can be put on show; press TAKE when it is back.",
@@ -378,6 +386,7 @@ ui::View Studio::view() const {
     view.recent = keeper_.recent();
     view.cameras = camera_.ids();
     view.busySelecting = selector_.busy();
+    view.measuring = measurer_.view();
     view.time_s = now_s();
     view.scale = window_->contentScale();
     return view;

@@ -11,6 +11,7 @@
 #include "app/studio/keeper.h"
 #include "app/studio/latency.h"
 #include "app/studio/link.h"
+#include "app/studio/measurer.h"
 #include "app/studio/options.h"
 #include "app/studio/selector.h"
 #include "app/studio/worker.h"
@@ -67,9 +68,14 @@ private:
     void on(const ui::LoadDepthMap& request);
     void on(const ui::UseRig& request);
     void on(const ui::SaveRig& request);
+    void on(const ui::Measure& request);
+    void on(const ui::StartMeasuring& request);
+    void on(const ui::StoreMeasured& request);
     void on(const ui::Recover& request);
 
     void show(OpenedFile opened);  ///< another project altogether
+    void measure();                ///< opens the page, or says why not
+    void lendDevices();            ///< to the measurer, or takes them back, as it wants
     void useChosenRig();           ///< the one the studio was started with, as an edit like any other
     void setScene(Scene scene);
     void take();
@@ -88,6 +94,8 @@ private:
     CameraPort camera_;
     Selector selector_;
     Latency latency_;
+    Measurer measurer_;
+    bool lent_ = false;  ///< devices are asked from the output core, or lent already
 
     Done done_;  ///< the newest of the worker
     Seen seen_;  ///< the newest of the viewer

@@ -79,6 +79,7 @@ void Studio::on(const ui::RunCommand& request) {
     case Command::safeLight:
         forgetTake();
         link_.safeLight();
+        measurer_.stopStep();
         break;
     case Command::acknowledgeFault:
         on(ui::AcknowledgeFault{});
@@ -130,6 +131,9 @@ void Studio::useChosenRig() {
 }
 
 void Studio::on(const ui::UseRig& request) {
+    if (measurer_.busy())
+        return say("A rig is being measured: store or cancel that before choosing another.", ui::Tone::warning);
+    measurer_.cancel();  // a page that asks about the rig before this one
     RigChoice choice = options_.rig;
     choice.rig = request.rig;
     choice.bits.reset();
