@@ -176,6 +176,7 @@ Result<DecodedScan> decodedScan(const Scan& scan, const DecodeOptions& options) 
 
     const std::array<double, 2> within{1.5 * double(stepX), 1.5 * double(stepY)};
     const std::vector<std::uint8_t> agreement = steadied(places, trendOf(places), within);
+    withoutIslands(places);
 
     DecodedScan out;
     out.projector = scan.projector;

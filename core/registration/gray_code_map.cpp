@@ -82,8 +82,9 @@ struct Corner {
     float i, j;  ///< in the picture
 };
 
-/// Writes the camera's place of each raster pixel whose centre lies in the triangle, rows y0 <= y < y1 only.
-void fillTriangle(const std::array<Corner, 3>& t, int y0, int y1, Field& out) {
+/// Writes the camera's place of each raster pixel whose centre lies in the triangle, rows y0 <= y < y1 only. Where
+/// light is seen twice, in a mirror or on something glossy, the surer place stays.
+void fillTriangle(const std::array<Corner, 3>& t, float weight, int y0, int y1, Field& out) {
     const float det = (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (t[1].y - t[0].y);
     if (det == 0.0F) return;
     const auto [left, right] = std::minmax({t[0].x, t[1].x, t[2].x});
@@ -101,9 +102,10 @@ void fillTriangle(const std::array<Corner, 3>& t, int y0, int y1, Field& out) {
             if (a < kSeam || b < kSeam || a + b > 1.0F - kSeam) continue;
             const std::size_t n =
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(out.size.width) + static_cast<std::size_t>(x);
+            if (weight <= out.known[n]) continue;
             out.values[2 * n] = t[0].i + a * (t[1].i - t[0].i) + b * (t[2].i - t[0].i);
             out.values[2 * n + 1] = t[0].j + a * (t[1].j - t[0].j) + b * (t[2].j - t[0].j);
-            out.known[n] = 1.0F;
+            out.known[n] = weight;
         }
     }
 }
@@ -145,12 +147,37 @@ Field turnedRound(const DecodedScan& decoded, const Field& departures) {
                             std::abs(departures.values[2 * a + 1] - departures.values[2 * b + 1]) < kStep_px;
                 }
                 if (!whole) continue;
-                fillTriangle({c[0], c[1], c[2]}, y0, y1, out);
-                fillTriangle({c[0], c[2], c[3]}, y0, y1, out);
+                const auto& sure = decoded.confidence;
+                const float weight = static_cast<float>(
+                    std::min({sure.at(i, j), sure.at(i + 1, j), sure.at(i, j + 1), sure.at(i + 1, j + 1)}));
+                fillTriangle({c[0], c[1], c[2]}, weight, y0, y1, out);
+                fillTriangle({c[0], c[2], c[3]}, weight, y0, y1, out);
             }
         }
     });
     return out;
+}
+
+/// Raster pixels that the camera sees: those the map reaches, and pinholes among them, where most of the 7 x 7 around
+/// are seen: a few pixels that were too dark or noisy to decode hide nothing.
+std::vector<std::uint8_t> seenPixels(const Field& raster) {
+    constexpr int kReach = 3, kMost = 25;
+    const int width = raster.size.width, height = raster.size.height;
+    std::vector<std::uint8_t> seen(raster.known.size());
+    parallelFor(height, [&](int y) {
+        const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+        for (int x = 0; x < width; ++x) {
+            int around = 0;
+            const bool here = raster.known[row + static_cast<std::size_t>(x)] > 0.0F;
+            for (int v = std::max(0, y - kReach); !here && v <= std::min(height - 1, y + kReach); ++v) {
+                for (int u = std::max(0, x - kReach); u <= std::min(width - 1, x + kReach); ++u)
+                    around += raster.known[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
+                                           static_cast<std::size_t>(u)] > 0.0F;
+            }
+            seen[row + static_cast<std::size_t>(x)] = here || around >= kMost ? 255 : 0;
+        }
+    });
+    return seen;
 }
 
 }  // namespace
@@ -172,15 +199,14 @@ Result<DenseMap> denseMap(const DecodedScan& decoded) {
     }
     Field camera = departures(decoded, *plane);
     Field raster = turnedRound(decoded, camera);
-    const auto pixels = raster.known.size();
-    std::vector<std::uint8_t> seen(pixels);
+    std::vector<std::uint8_t> seen = seenPixels(raster);
     const Homography<CameraFrame, ProjectorFrame> back = plane->inverted();
     parallelFor(raster.size.height, [&](int y) {
         for (int x = 0; x < raster.size.width; ++x) {
             const std::size_t n =
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(raster.size.width) + static_cast<std::size_t>(x);
-            seen[n] = raster.known[n] > 0.0F ? 255 : 0;
-            if (seen[n] == 0) continue;
+            if (raster.known[n] == 0.0F) continue;
+            raster.known[n] = 1.0F;
             const auto p = back({x + 0.5, y + 0.5});
             raster.values[2 * n] -= static_cast<float>(p.x);
             raster.values[2 * n + 1] -= static_cast<float>(p.y);

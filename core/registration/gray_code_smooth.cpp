@@ -156,4 +156,42 @@ std::vector<std::uint8_t> steadied(Places& places, const Trend& trend, std::arra
     return agreement;
 }
 
+void withoutIslands(Places& places) {
+    constexpr int kCell = 8;
+    const int width = places.camera.width, height = places.camera.height;
+    const int across = (width + kCell - 1) / kCell, down = (height + kCell - 1) / kCell;
+    std::vector<int> decoded(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), 0);
+    const auto eachPixel = [&](int row, int column, const auto& visit) {
+        for (int y = kCell * row; y < std::min(height, kCell * (row + 1)); ++y) {
+            for (int x = kCell * column; x < std::min(width, kCell * (column + 1)); ++x)
+                visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+        }
+    };
+    const auto cell = [&](int row, int column) {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(across) + static_cast<std::size_t>(column);
+    };
+    parallelFor(down, [&](int row) {
+        for (int column = 0; column < across; ++column)
+            eachPixel(row, column,
+                      [&](std::size_t n) { decoded[cell(row, column)] += places.state[n] == kDecoded ? 1 : 0; });
+    });
+    parallelFor(down, [&](int row) {
+        for (int column = 0; column < across; ++column) {
+            if (decoded[cell(row, column)] == 0) continue;
+            int around = 0, pixels = 0;
+            for (int v = std::max(0, row - 1); v <= std::min(down - 1, row + 1); ++v) {
+                for (int u = std::max(0, column - 1); u <= std::min(across - 1, column + 1); ++u) {
+                    around += decoded[cell(v, u)];
+                    pixels += (std::min(width, kCell * (u + 1)) - kCell * u) *
+                              (std::min(height, kCell * (v + 1)) - kCell * v);
+                }
+            }
+            if (8 * around >= pixels) continue;
+            eachPixel(row, column, [&](std::size_t n) {
+                if (places.state[n] == kDecoded) places.state[n] = kInconsistent;
+            });
+        }
+    });
+}
+
 }  // namespace ilf

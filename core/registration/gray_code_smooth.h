@@ -27,4 +27,8 @@ Trend trendOf(const Places& places);
 /// 0..255.
 std::vector<std::uint8_t> steadied(Places& places, const Trend& trend, std::array<double, 2> within);
 
+/// Islands of a few pixels in shadow or gloss are chance: where less than an eighth of some 24 x 24 pixels is decoded,
+/// those become inconsistent.
+void withoutIslands(Places& places);
+
 }  // namespace ilf
