@@ -61,11 +61,10 @@ Result<Corners> cornersOf(const Picture& picture, const SurfaceMarker& marker) {
         return fail(Fault::unsupported, "There is no marker dictionary \"" + marker.dictionary +
                                             "\": use APRILTAG_36h11, 4X4_50, 5X5_100, 6X6_250 or another of OpenCV's.");
     }
-    auto parameters = cv::aruco::DetectorParameters::create();
-    parameters->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
     std::vector<Corners> corners;
     std::vector<int> ids;
-    cv::aruco::detectMarkers(greyOf(picture), *dictionary, corners, ids, parameters);
+    const cv::Mat1b grey = greyOf(picture);
+    cv::aruco::detectMarkers(grey, *dictionary, corners, ids);
     const std::string name = "Marker " + std::to_string(marker.id) + " of " + marker.dictionary;
     const auto count = std::ranges::count(ids, marker.id);
     if (count == 0) {
@@ -76,10 +75,16 @@ Result<Corners> cornersOf(const Picture& picture, const SurfaceMarker& marker) {
         return fail(Fault::outOfRange, name + " is in the picture " + std::to_string(count) + " times: leave one.");
     }
     Corners found = corners[static_cast<std::size_t>(std::ranges::find(ids, marker.id) - ids.begin())];
-    if (std::sqrt(cv::contourArea(found)) < kFewestPixels) {
+    const double side_px = std::sqrt(cv::contourArea(found));
+    if (side_px < kFewestPixels) {
         return fail(Fault::outOfRange, name + " is less than 16 px wide in the picture, too little for a slope: print "
                                               "it larger, or move the camera nearer.");
     }
+    // Within the marker's own black rim, so that its pattern does not pull the corners.
+    const double cells = (*dictionary)->markerSize + 2.0;
+    const int reach = std::clamp(static_cast<int>(0.7 * side_px / cells), 1, 8);
+    cv::cornerSubPix(grey, found, {reach, reach}, {-1, -1},
+                     {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 0.005});
     return found;
 }
 

@@ -23,6 +23,7 @@ struct Sample {
 constexpr std::size_t kMostSamples = 20'000;
 constexpr std::size_t kFewestSamples = 100;
 constexpr double kLeastSpread = 0.02;  // dioptres: less is no other surface
+constexpr double kMostScatter = 0.1;   // dioptres, median: more is no plane, or a sensor of no use
 
 std::vector<Sample> samplesOf(const Document& document, const Region& region) {
     const DepthMap& depth = *document.scene.depth;
@@ -173,7 +174,7 @@ Result<FittedPlane> fittedPlane(const Document& document, const Region& region) 
     }
     FittedPlane result;
     result.inliers = static_cast<double>(on.size()) / static_cast<double>(samples.size());
-    if (result.inliers < 0.5 || best.median > 0.25) {
+    if (result.inliers < 0.5 || best.median > kMostScatter) {
         return refused("No plane fits what the depth map has beneath " + name +
                        ": give it the depth map itself, or split it.");
     }

@@ -4,6 +4,7 @@
 
 #include "core/document/edit.h"
 #include "core/document/history.h"
+#include "core/document/viewer_place.h"
 #include "core/document/wearer_distances.h"
 #include "scenes.h"
 #include "tests/support/law.h"
@@ -57,7 +58,7 @@ TEST_CASE("wearer's distances: at the camera they are the camera's depth less le
         const auto depth = static_cast<float>(*rc::gen::inRange(100, 90000) * 1e-3);
         const DepthMap map = wearerDistances(measuredAt(depth), {}, wearer);
         const double expected = static_cast<double>(depth) - wearer.lensToPupil.si();
-        for (const auto [x, y] : {std::pair{0, 0}, std::pair{39, 23}, std::pair{20, 7}})
+        for (const auto& [x, y] : {std::pair{0, 0}, std::pair{39, 23}, std::pair{20, 7}})
             RC_ASSERT(std::abs(static_cast<double>(map.metres.at(x, y)) - expected) < 1e-7 * expected);
         RC_ASSERT(map.sigma.empty());
     });
@@ -85,10 +86,33 @@ TEST_CASE("wearer's distances: a turned wearer measures along their own axis, fr
                 const double d = viewer.viewerFromCamera({sx * 1.5, sy * 1.5, 1.5}).z - 0.02;
                 const double seen = static_cast<double>(map.metres.at(x, y));
                 // Slopes are a line between every eighth pixel: here, with 40 px across, far coarser than in a picture.
-                RC_ASSERT(d < 0.01 ? seen == 0.0 || seen < 0.02 : std::abs(seen - d) < 2e-3);
+                const bool right = d < 0.01 ? seen < 0.02 : std::abs(seen - d) < 8e-3;
+                RC_ASSERT(right);
             }
         }
     });
+}
+
+TEST_CASE("viewer's place: what is typed is where they are, and comes back") {
+    CHECK(viewerAt({}) == ViewerPose{});
+    law("any place, any direction", [] {
+        const auto number = [](int most) { return *rc::gen::inRange(-most, most + 1) * 0.01; };
+        const ViewerPlace place{Metre::fromSi(number(200)), Metre::fromSi(number(200)), Metre::fromSi(number(200)),
+                                100.0 * number(80), 100.0 * number(80)};
+        const ViewerPlace back = placeOf(viewerAt(place));
+        RC_ASSERT(std::abs((back.right - place.right).si()) < 1e-9);
+        RC_ASSERT(std::abs((back.down - place.down).si()) < 1e-9);
+        RC_ASSERT(std::abs((back.behind - place.behind).si()) < 1e-9);
+        RC_ASSERT(std::abs(back.turned_deg - place.turned_deg) < 1e-6);
+        RC_ASSERT(std::abs(back.tilted_deg - place.tilted_deg) < 1e-6);
+    });
+    // Half a metre behind the camera and turned to the right, a point on the line of sight is straight ahead.
+    const ViewerPose viewer = viewerAt({0.0_m, 0.0_m, 0.5_m, 90.0, 0.0});
+    const auto ahead = viewer.viewerFromCamera({2.0, 0.0, -0.5});
+    CHECK(std::abs(ahead.x) < 1e-9);
+    CHECK(ahead.z == doctest::Approx(2.0));
+    CHECK(viewerAt({0.0_m, 0.0_m, 0.0_m, 0.0, 45.0}).viewerFromCamera({0.0, 1.0, 1.0}).z ==
+          doctest::Approx(std::sqrt(2.0)));
 }
 
 TEST_CASE("wearer's distances: what is behind the lens, too near, too far or not measured is a hole") {
@@ -182,7 +206,7 @@ TEST_CASE("measured depth: refusals name the cause and change nothing") {
     CHECK(refusal(SetMeasuredDepth{Box(blind)}).starts_with("The camera of the depth map needs focal lengths"));
     Wearer wearer = document.wearer;
     wearer.lensToPupil = 60.0_mm;
-    const Document near = *edited(document, SetViewerPose{behind(-0.92)});
+    const Document near = *edited(document, SetViewerPose{behind(-0.94)});
     CHECK_FALSE(edited(near, SetWearer{wearer}));
     const auto without = edited(*edited(document, SetDistance{"b", ConstantDistance{0.5_m, {}}}), SetMeasuredDepth{});
     REQUIRE(without);
