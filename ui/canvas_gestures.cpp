@@ -202,7 +202,8 @@ void begin(Panel& p, const Viewport& viewport, const PointerSample& sample) {
         return;
     case Tool::flood: {
         const RegionId region = paintTarget(p.view, state, p.requests);
-        p.requests.push_back(SelectFlood{region, at, state.floodTolerance});
+        p.requests.push_back(SelectFlood{region, at, state.floodByDepth ? state.surfaceTolerance : state.floodTolerance,
+                                         state.floodByDepth});
         return;
     }
     case Tool::polygon: {

@@ -65,7 +65,10 @@ constexpr auto table = std::to_array<CommandInfo>({
     {C::toolLasso, "tool.lasso", "Lasso", "", plain('L'), none, "Draw around an area; Alt takes it away."},
     {C::toolSelect, "tool.select", "Select object", "", plain('S'), none,
      "Drag a box around an object: its outline is found in the background."},
-    {C::toolFlood, "tool.flood", "Flood", "", plain('W'), none, "Click a colour: the area of that colour is added."},
+    {C::toolFlood, "tool.flood", "Flood", "", plain('W'), none,
+     "Click a colour: the area of that colour is added; or a surface, where it goes by depth (Shift+W)."},
+    {C::floodByDepth, "tool.flood.depth", "Flood by depth", "", shift(letter('W')), none,
+     "The flood takes the surface under the cursor from the depth map, or by colour again."},
 
     {C::addRegion, "region.add", "Add region", "Scene", ctrlShift('N'), none, "A new empty region above the others."},
     {C::duplicateRegion, "region.duplicate", "Duplicate region", "Scene", ctrl('D'), none,

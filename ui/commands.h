@@ -26,6 +26,7 @@ enum class Command {
     toolLasso,
     toolSelect,
     toolFlood,
+    floodByDepth,
     brushSmaller,
     brushLarger,
     brushSofter,

@@ -39,10 +39,12 @@ const char* titleOf(Purpose purpose) {
         return "Save the rig";
     case Purpose::storeWaves:
         return "Store what was measured";
+    case Purpose::intrinsics:
+        return "Camera intrinsics for the depth map (JSON)";
     case Purpose::depthMap:
         break;
     }
-    return "Load a depth map (16-bit PNG)";
+    return "Load a depth map (16-bit PNG, PFM or EXR)";
 }
 
 /// A project folder is opened, not entered.
@@ -129,7 +131,10 @@ bool accept(Panel& p, FileDialog& dialog) {
         p.requests.push_back(StoreMeasured{path.string()});
         break;
     case Purpose::depthMap:
-        p.requests.push_back(LoadDepthMap{path.string(), 1.0_mm});
+        p.requests.push_back(LoadDepthMap{path.string(), {}, p.state.intrinsics});
+        break;
+    case Purpose::intrinsics:
+        p.state.intrinsics = path.string();
         break;
     }
     return true;

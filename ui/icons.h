@@ -12,6 +12,6 @@ inline constexpr const char *star = "\uf005", *check = "\uf00c", *cross = "\uf00
                             *picture = "\uf03e", *brush = "\uf1fc", *eraser = "\uf12d", *pointer = "\uf245",
                             *magic = "\uf0d0", *objects = "\uf247", *shield = "\uf132", *question = "\uf059",
                             *info = "\uf05a", *history = "\uf1da", *levelUp = "\uf148", *expand = "\uf065",
-                            *circle = "\uf111";
+                            *circle = "\uf111", *cube = "\uf1b2";
 
 }  // namespace ilf::ui::icon

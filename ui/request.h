@@ -1,6 +1,7 @@
 // What panels ask for: edits, commands, and the few things that need more than an edit.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -52,16 +53,19 @@ struct SelectObject {
 struct SelectFlood {
     RegionId region;
     Point<CameraFrame> at;
-    double tolerance = 0.1;
+    double tolerance = 0.1;  ///< by colour: of full scale; by depth: times the usual
+    bool byDepth = false;    ///< the surface under the cursor, from the depth map
 };
 /// Jump in the undo list.
 struct GoToHistory {
     std::size_t step = 0;
 };
 struct AcknowledgeFault {};
+/// A PNG of 16 bits, PFM or EXR, as the camera sees it.
 struct LoadDepthMap {
     std::string path;
-    Metre metresPerUnit = 1.0_mm;
+    std::optional<Metre> metresPerUnit;  ///< absent: guessed, and said
+    std::string intrinsics;              ///< file of the camera's; empty: the picture's field of view
 };
 /// Plan for and play on another rig: "simulated", "emulated", or a rig's file. The output core is stopped in safe light
 /// and started anew.

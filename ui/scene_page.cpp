@@ -1,4 +1,5 @@
 // The scene: picture, pixel scale, camera, depth map.
+#include "ui/depth_part.h"
 #include "ui/icons.h"
 #include "ui/new_region.h"
 #include "ui/widgets.h"
@@ -92,19 +93,7 @@ void scenePage(Panel& p) {
     }
 
     ImGui::Dummy({1, p.px(4)});
-    heading("DEPTH MAP");
-    if (scene.depth) {
-        const FieldSpec step{Unit::millimetre, 1e-6, 1.0, 0.0,
-                             "How far one step of the depth map's 16-bit values is: 1 mm, 0.1 mm, 0.2 mm (TUM) ..."};
-        if (const auto change = numberRow(p, "One step", "###depthStep", scene.depth->step.si(), step)) {
-            p.edit(change->commits, SetDepthScale{Metre::fromSi(change->value)});
-        }
-    }
-    if (ImGui::Button("Load depth map...###depth", {-1, 0})) {
-        openFileDialog(p.state, FileDialog::Purpose::depthMap, p.view);
-    }
-    tooltip("A 16-bit PNG of the picture's size: steps from the wearer's lens (1 mm unless set), 0 where nothing is "
-            "known.");
+    depthPart(p);
 }
 
 }  // namespace ilf::ui

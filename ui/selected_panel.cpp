@@ -1,6 +1,9 @@
 // The selected region: look, strength, distance, and what the plan makes of them.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
+#include "core/document/plane_fit.h"
 #include "ui/canvas.h"
 #include "ui/icons.h"
 #include "ui/new_region.h"
@@ -30,6 +33,45 @@ PlaneDistance planeOver(const Panel& p, const Region& region, Metre distance) {
              DistanceAnchor{{x0 + 0.5 * w, y0 + 0.15 * h}, distance}}};
 }
 
+/// Where a plane's three points can come from besides being dragged: the depth map beneath, or a printed marker.
+void planeSources(Panel& p, const Region& region) {
+    const float width = (ImGui::GetContentRegionAvail().x - p.px(8)) / 2;
+    const auto found = [&](const auto& plane, const std::string& words) {
+        if (!plane) return say(p.state, plane.error().what, Tone::warning, p.view.time_s);
+        p.commit(SetDistance{region.id, plane->distance});
+        say(p.state, words, Tone::note, p.view.time_s);
+    };
+    ImGui::BeginDisabled(!p.document().scene.depth);
+    if (ImGui::Button("Fit to depth###fitPlane", {width, 0})) {
+        const auto plane = fittedPlane(p.document(), region);
+        found(plane, plane ? "The plane of \"" + region.name + "\" fits the depth map to \u00b1 " +
+                                 formatted(2.0 * plane->rms) + ", with " + formatted(plane->inliers, Unit::percent) +
+                                 " of its pixels on it."
+                           : std::string());
+    }
+    ImGui::EndDisabled();
+    tooltip("The plane that fits the depth map beneath the region best; what stands on it does not count.");
+    ImGui::SameLine();
+    const SurfaceMarker marker{"APRILTAG_36h11", p.state.markerId, p.state.markerSide};
+    if (ImGui::Button("From marker###markerPlane", {width, 0})) {
+        const auto plane = markerPlane(p.document(), region, sceneCamera(p.document()), marker);
+        found(plane, plane ? "The marker lies " + formatted(plane->markerDistance) +
+                                 " from the lens; the plane is known to \u00b1 " +
+                                 formatted(plane->distance.tolerance) + "."
+                           : std::string());
+    }
+    tooltip("The plane that a printed marker (AprilTag 36h11) lies in, found in the scene's picture.");
+    const FieldSpec side{Unit::millimetre, 0.005, 2.0, 0.0,
+                         "Side of the marker's black square, as measured on the print."};
+    if (const auto change = numberRow(p, "  marker's side", "###markerSide", p.state.markerSide.si(), side)) {
+        p.state.markerSide = Metre::fromSi(change->value);
+    }
+    const FieldSpec id{Unit::number, 0.0, 586.0, 1.0, "Which of the family's markers it is."};
+    if (const auto change = numberRow(p, "  its number", "###markerId", p.state.markerId, id)) {
+        p.state.markerId = static_cast<int>(std::lround(change->value));
+    }
+}
+
 void distanceFields(Panel& p, const Region& region) {
     const Distance& distance = region.distance;
     const bool focus = std::exchange(p.state.focusDistance, false);
@@ -48,7 +90,7 @@ void distanceFields(Panel& p, const Region& region) {
         if (*picked == 1) p.commit(SetDistance{region.id, planeOver(p, region, at)});
         if (*picked == 2 && p.document().scene.depth) p.commit(SetDistance{region.id, FromDepthMap{}});
         if (*picked == 2 && !p.document().scene.depth) {
-            say(p.state, "This scene has no depth map. Load a 16-bit PNG on the Scene page first.", Tone::warning,
+            say(p.state, "This scene has no depth map. Load one on the Scene page first, or scan.", Tone::warning,
                 p.view.time_s);
         }
     }
@@ -74,6 +116,12 @@ void distanceFields(Panel& p, const Region& region) {
             }
             ImGui::PopID();
         }
+        if (const auto change = numberRow(p, "  tolerance \u00b1", "###tolerance", plane->tolerance.si(), tolerance)) {
+            PlaneDistance next = *plane;
+            next.tolerance = Metre::fromSi(change->value);
+            set(*change, next);
+        }
+        planeSources(p, region);
     } else {
         const Metre now = std::get<FromDepthMap>(distance).tolerance;
         if (const auto change = numberRow(p, "  tolerance \u00b1", "###tolerance", now.si(), tolerance)) {
@@ -85,11 +133,27 @@ void distanceFields(Panel& p, const Region& region) {
 void derived(Panel& p, const RegionPlan& planned) {
     const Plan& plan = *p.plan();
     const CompactRows compact(p);
+    std::string at = formatted(planned.nearest);
+    if (planned.farthest > planned.nearest) at += " \u2013 " + formatted(planned.farthest);
+    derivedRow(p, "distance", at, "Of what is seen of it, nearest to farthest, its uncertainty added on both sides.");
+    derivedRow(
+        p, "  known to", planned.sigma > 0.0_m ? "\u00b1 " + formatted(2.0 * planned.sigma) : "not said",
+        "Two standard deviations: of the depth map and the wearer's place, of the fitted plane, or the tolerance "
+        "typed.");
     if (planned.look == Look::blur) {
         std::string least = planned.pMin ? formatted(*planned.pMin) : "blurred at rest";
         if (plan.driver == planned.id)
             least += std::string("  ") + (hasIcons() ? icon::star : "*") + " drives the sweep";
         derivedRow(p, "P_min", least, "The least lens power that blurs its nearest point.");
+    }
+    if (planned.look == Look::blur && planned.blurDiameterFarthest > 1.05 * planned.blurDiameter) {
+        const auto arcmin = [&](Metre diameter) {
+            const double radians = diameter / plan.input.eye.retina;
+            return std::to_string(std::lround(radians * 10800.0 / std::numbers::pi));
+        };
+        derivedRow(p, "blur",
+                   arcmin(planned.blurDiameter) + " \u2013 " + arcmin(planned.blurDiameterFarthest) + "\u2032",
+                   "Least at its nearest point, which the power is chosen for, and most at its farthest.");
     }
     if (planned.level)
         derivedRow(p, "lit at", formatted(planned.levelPower), "Lens power while this region has light.");

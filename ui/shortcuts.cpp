@@ -295,6 +295,10 @@ void run(Command command, const View& view, State& state, Requests& requests) {
     case Command::toolFlood:
         pick(state, Tool::flood, requests);
         return;
+    case Command::floodByDepth:
+        state.floodByDepth = state.tool != Tool::flood || !state.floodByDepth;
+        pick(state, Tool::flood, requests);
+        return;
     case Command::brushSmaller:
         resize(state, 1.0 / kBrushStep);
         return;

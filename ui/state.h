@@ -78,6 +78,7 @@ struct FileDialog {
         saveAs,
         exportView,
         depthMap,
+        intrinsics,
         openRig,
         saveRig,
         storeWaves
@@ -106,6 +107,13 @@ struct State {
     Brush eraser{40.0, 0.8, 1.0};
     bool protectOthers = false;
     double floodTolerance = 0.1;
+    bool floodByDepth = false;
+    Box<DepthMap> countedDepth;     ///< whose holes are known
+    double depthHoles = 0.0;        ///< share of its pixels
+    double surfaceTolerance = 1.0;  ///< of the flood by depth, times the bend that ends a surface
+    std::string intrinsics;         ///< file that is loaded along with a depth map; empty: none
+    Metre markerSide = 50.0_mm;     ///< of the printed marker a plane is laid through
+    int markerId = 0;
     RegionId selected;
 
     ViewMode mode = ViewMode::scene;

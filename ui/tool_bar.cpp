@@ -124,6 +124,18 @@ void toolBar(Panel& p) {
                     {Unit::percent, 0.01, 1.0, 0.005, "How much a dab covers."});
         ImGui::PopID();
     } else if (p.state.tool == Tool::flood) {
+        ImGui::SetCursorPosX(left);
+        if (iconButton("###byDepth", icon::cube, "Z", p.state.floodByDepth, side,
+                       p.state.floodByDepth ? colour::derived : colour::dim)) {
+            p.run(Command::floodByDepth);
+        }
+        commandTooltip(Command::floodByDepth);
+    }
+    if (p.state.tool == Tool::flood && p.state.floodByDepth) {
+        brushNumber(
+            p, "###surfaceTolerance", "bend", p.state.surfaceTolerance,
+            {Unit::number, 0.1, 10.0, 0.05, "How much a surface may bend, times what the depth map's noise allows."});
+    } else if (p.state.tool == Tool::flood) {
         brushNumber(p, "###tolerance", "range", p.state.floodTolerance,
                     {Unit::percent, 0.0, 1.0, 0.002, "How far a colour may differ and still be taken."});
     }

@@ -1,13 +1,15 @@
 #include "app/studio/selector.h"
 
+#include "core/document/select_depth.h"
+
 namespace ilf::app {
 
 Selector::Selector(std::function<void()> onFound)
     : onFound_(std::move(onFound)), thread_([this](std::stop_token stop) { run(stop); }) {}
 
-void Selector::find(Box<Picture> picture, Task task) {
+void Selector::find(const Scene& scene, Task task) {
     pending_ = 1;  // a newer click replaces one that has not begun
-    jobs_.put({std::move(picture), std::move(task)});
+    jobs_.put({scene.picture, scene.depth, std::move(task)});
 }
 
 std::optional<Selection> Selector::tryTake() {
@@ -23,7 +25,9 @@ void Selector::run(std::stop_token stop) {
             selection.mask = cutOut(*job->picture, object->box);
         } else {
             const auto& flood = std::get<ui::SelectFlood>(job->task);
-            selection.mask = flooded(*job->picture, flood.at, flood.tolerance);
+            selection.mask = flood.byDepth ? surfaceAt(job->depth ? *job->depth : DepthMap{}, *job->picture, flood.at,
+                                                       {flood.tolerance, false})
+                                           : flooded(*job->picture, flood.at, flood.tolerance);
         }
         found_.put(std::move(selection));
         onFound_();

@@ -24,13 +24,14 @@ public:
     explicit Selector(std::function<void()> onFound);
 
     using Task = std::variant<ui::SelectObject, ui::SelectFlood>;
-    void find(Box<Picture> picture, Task task);
+    void find(const Scene& scene, Task task);
     std::optional<Selection> tryTake();
     bool busy() const { return pending_ > 0; }
 
 private:
     struct Job {
         Box<Picture> picture;
+        Box<DepthMap> depth;
         Task task;
     };
     void run(std::stop_token stop);

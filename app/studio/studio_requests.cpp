@@ -157,10 +157,12 @@ void Studio::setScene(Scene scene) {
     const Scene& now = editor_.document().scene;
     if (scene.size() == now.size()) {
         scene.depth = now.depth;
+        scene.measured = now.measured;
         if (now.scale.source != PixelScale::Source::assumed && scene.scale.source == PixelScale::Source::assumed) {
             scene.scale = now.scale;
         }
     }
+    scene.viewer = now.viewer;
     edit(SetScene{std::move(scene)});
 }
 
@@ -206,23 +208,6 @@ void Studio::grab() {
     auto scene = camera_.grabbed();
     if (!scene) return say(scene.error().what, ui::Tone::warning);
     setScene(*std::move(scene));
-}
-
-void Studio::on(const ui::SelectObject& request) { selector_.find(editor_.document().scene.picture, request); }
-void Studio::on(const ui::SelectFlood& request) { selector_.find(editor_.document().scene.picture, request); }
-
-void Studio::on(const ui::LoadDepthMap& request) {
-    auto raw = projects::readDepth16(request.path);
-    if (!raw) return say(raw.error().what, ui::Tone::error);
-    Scene scene = editor_.document().scene;
-    if (raw->size() != scene.size()) {
-        return say("The depth map " + request.path + " has " + std::to_string(raw->width()) + "x" +
-                       std::to_string(raw->height()) + " pixels, the picture " + std::to_string(scene.size().width) +
-                       "x" + std::to_string(scene.size().height) + ": they must agree.",
-                   ui::Tone::error);
-    }
-    scene.depth = Box(depthOf(*raw, request.metresPerUnit));
-    edit(SetScene{std::move(scene)});
 }
 
 void Studio::on(const ui::Recover& request) {
