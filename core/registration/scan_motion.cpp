@@ -31,6 +31,19 @@ bool textured(const cv::Mat& sum) {
     return cv::countNonZero(strong > 80.0F) > static_cast<int>(strong.total() / 500);
 }
 
+/// The highest level of the white picture in a block.
+int brightest(const Scan& scan, int x0, int y0, int side) {
+    const auto white = std::ranges::find(scan.patterns, Pattern{Pattern::Kind::white, 0, false});
+    if (white == scan.patterns.end()) return 0;
+    const auto& picture = scan.pictures[static_cast<std::size_t>(white - scan.patterns.begin())];
+    int most = 0;
+    for (int y = y0; y < std::min(picture.height(), y0 + side); ++y) {
+        for (int x = x0; x < std::min(picture.width(), x0 + side); ++x)
+            most = std::max(most, int{picture.at(x, y)});
+    }
+    return most;
+}
+
 }  // namespace
 
 std::optional<Motion> motionIn(const Scan& scan) {
@@ -75,6 +88,7 @@ std::optional<Motion> motionIn(const Scan& scan) {
         std::vector<float> values(small.size());
         for (int y = 0; y < blocks.height; ++y) {
             for (int x = 0; x < blocks.width; ++x) {
+                if (brightest(scan, x * kBlock, y * kBlock, kBlock) == 255) continue;  // sums do not add up there
                 for (std::size_t k = 0; k < small.size(); ++k)
                     values[k] = small[k].at<float>(y, x);
                 std::vector<float> sorted = values;
