@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "app/exit_code.h"
+#include "app/headless/decode_scan_command.h"
 #include "app/headless/doctor_command.h"
 #include "app/headless/evaluate_command.h"
 #include "app/headless/lens_command.h"
@@ -204,6 +205,28 @@ void addSeams(CLI::App& app, SeamsOptions& options) {
     addRigChoice(*seams, options.rig);
 }
 
+void addDecodeScan(CLI::App& app, DecodeScanOptions& options) {
+    auto* decode = app.add_subcommand("decode-scan", "Saved pictures of a Gray-code scan become a map, checked");
+    decode->footer(
+        "DIR holds a camera's pictures (PNG, JPEG, TIFF, WebP) of one projector's patterns. Without a scan.json, in "
+        "the\n"
+        "order of their names: columns from the coarsest bit, each beside its inverse, rows likewise, white, black\n"
+        "(OpenCV's order; 42 pictures for 1024x768). DIR/scan.json names other orders:\n"
+        "  {\"format\": \"illuminatedfocus-scan\", \"version\": 1, \"projector\": [1024, 768],\n"
+        "   \"pictures\": [{\"file\": \"a.png\", \"shows\": \"white\"}, {\"file\": \"b.png\", \"shows\": \"column 0 "
+        "inverse\"}]}\n"
+        "or \"order\": \"white-first\" or \"white-last\" instead of \"pictures\". Bit 0 is the coarsest. A scan that "
+        "cannot be\n"
+        "used names its cause: too-dark, saturated, moved, wrong-screen, other-order, ambient-light, previous-frame,\n"
+        "glossy, flat (a note), few-pixels. Success is said after the map was written, read back and held against the\n"
+        "scan's wide stripes. Exit codes: 0 done, 1 not usable or not written, 2 usage.");
+    decode->add_option("DIR", options.folder, "Folder of the pictures")->required();
+    decode->add_option("-o,--out", options.out, "Map to write: .yml, .yml.gz (OpenCV) or .exr")->required();
+    decode->add_option("--projector", options.projector, "Its raster, such as 1024x768 (which is the default)");
+    decode->add_option("--quality", options.quality, "PNG of what was decoded and why not");
+    decode->add_flag("--json", options.json, "As JSON");
+}
+
 void addDoctor(CLI::App& app, DoctorOptions& options) {
     auto* doctor = app.add_subcommand("doctor", "What is attached, whether it can be used, and what to do");
     doctor->footer(
@@ -306,6 +329,8 @@ int main(int argc, char** argv) {
     MeasureDelayOptions measuredDelay;
     MeasureRigOptions measuredRig;
     addMeasure(app, measuredDelay, measuredRig);
+    DecodeScanOptions decodedScan;
+    addDecodeScan(app, decodedScan);
     DoctorOptions doctor;
     addDoctor(app, doctor);
     RigChoice validatedRig;
@@ -326,6 +351,7 @@ int main(int argc, char** argv) {
             return kDone;
         }
         if (listDevices) return listDevicesCommand();
+        if (app.got_subcommand("decode-scan")) return decodeScanCommand(decodedScan);
         if (app.got_subcommand("doctor")) return doctorCommand(doctor);
         studio.coreProgram = run.coreProgram = ilf::devices::coreExecutable().string();
         if (app.got_subcommand("plan")) return planCommand(plan);
