@@ -77,6 +77,22 @@ std::vector<std::array<std::uint32_t, 3>> trianglesOf(int mode, const std::vecto
     return triangles;
 }
 
+/// Whether what the file says of an accessor's extent is so, to what a float holds of it.
+bool claimsHold(const tinygltf::Accessor& accessor, const std::vector<std::array<float, 3>>& positions) {
+    if (accessor.normalized || accessor.minValues.size() != 3 || accessor.maxValues.size() != 3 || positions.empty())
+        return true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto [least, most] = std::minmax_element(positions.begin(), positions.end(),
+                                                       [&](const auto& a, const auto& b) { return a[axis] < b[axis]; });
+        const double low = static_cast<double>((*least)[axis]), high = static_cast<double>((*most)[axis]);
+        const double tolerance = 1e-5 * std::max({1e-30, std::abs(low), std::abs(high)});
+        if (std::abs(low - accessor.minValues[axis]) > tolerance ||
+            std::abs(high - accessor.maxValues[axis]) > tolerance)
+            return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 std::optional<Primitive> primitiveOf(const tinygltf::Model& model, const tinygltf::Primitive& from,
@@ -112,6 +128,9 @@ std::optional<Primitive> primitiveOf(const tinygltf::Model& model, const tinyglt
         }
     }
     if (!findings.sound()) return std::nullopt;
+    // Draco rounds: its vertices are near what was claimed of them, not at it.
+    if (!unpacked && !claimsHold(model.accessors[static_cast<std::size_t>(position->second)], primitive.positions))
+        findings.remark(where + " claims an extent that its vertices do not have; theirs counts.");
 
     const int mode = from.mode < 0 ? TINYGLTF_MODE_TRIANGLES : from.mode;
     std::vector<std::uint32_t> indices;
