@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "app/exit_code.h"
+#include "app/headless/calibrate_command.h"
 #include "app/headless/decode_scan_command.h"
 #include "app/headless/doctor_command.h"
 #include "app/headless/evaluate_command.h"
@@ -12,6 +13,7 @@
 #include "app/headless/plan_command.h"
 #include "app/headless/render_command.h"
 #include "app/headless/run_command.h"
+#include "app/headless/scan_command.h"
 #include "app/headless/seams_command.h"
 #include "app/headless/validate_command.h"
 #include "app/studio/options.h"
@@ -248,6 +250,26 @@ void addDoctor(CLI::App& app, DoctorOptions& options) {
     doctor->add_option("--root", options.root, "Another system's files, for tests")->group("");
 }
 
+void addCalibrate(CLI::App& app, CalibrateOptions& options) {
+    auto* calibrate =
+        app.add_subcommand("calibrate", "Camera and projector from scans of a chessboard, one folder for each pose");
+    calibrate->footer(
+        "Each DIR holds one scan's pictures, as decode-scan reads them, with the board in another pose: five or more,\n"
+        "tilted by 20 to 40 degrees to different sides. Metres come from the board's square. One pose, or nearly\n"
+        "parallel ones, are refused. Exit codes: 0 done, 1 not usable or not written, 2 usage.");
+    auto* folders = calibrate->add_option("DIR", options.folders, "Folders of the scans");
+    calibrate->add_option("--board", options.board, "Its inner corners, where black squares meet")
+        ->capture_default_str();
+    calibrate->add_option("--square", options.square, "Side of a square on the print, with its unit")
+        ->capture_default_str();
+    calibrate->add_option("--projector", options.projector, "Its raster, such as 1024x768");
+    calibrate
+        ->add_option("--opencv", options.opencv, "Take over a calibration_result.xml of procam-calibration instead")
+        ->excludes(folders);
+    calibrate->add_option("-o,--out", options.out, "Calibration to write (.json)");
+    calibrate->add_flag("--json", options.json, "As JSON: numbers, their deviations, residuals of each pose");
+}
+
 void addMeasure(CLI::App& app, MeasureDelayOptions& delay, MeasureRigOptions& rig) {
     auto* measure =
         app.add_subcommand("measure", "What a photodiode tells: a projector's delay, a lens's powers and waves");
@@ -278,6 +300,25 @@ void addMeasure(CLI::App& app, MeasureDelayOptions& delay, MeasureRigOptions& ri
     rigs->add_flag("--replace", rig.replace, "Overwrite files that are there");
     rigs->add_option("-o,--out", rig.lens, "Wave database to write (.ilflens)")->required();
     rigs->add_option("--save-rig", rig.savedRig, "Rig to write (.json), with powers, delay and waves");
+}
+
+void addScan(CLI::App& app, ScanOptions& options) {
+    auto* scan = app.add_subcommand("scan", "Where the camera's picture lands on the projector: shows patterns and "
+                                            "takes pictures of them, on a core of its own");
+    scan->footer(
+        "Ends in steady white light. The map is written only when stripes shown anew confirm it. The camera\n"
+        "\"emulated\" sees a desk in the light of simulated or emulated devices; after a colon it takes words:\n"
+        "board=N, binning=N, roi=X:Y:W:H, ambient=LUX, delay=FRAMES, bump=MM, turn=DEGREES, hand, saturated,\n"
+        "dark, wrong-screen, frozen, after=FRAMES, quiet, seed=N, with commas between them.");
+    addRigChoice(*scan, options.rig);
+    scan->add_option("--camera", options.camera, "Camera's id (see --list-devices), or emulated:WORDS");
+    scan->add_option("-o,--out", options.out, "Map to write: .yml, .yml.gz or .exr")->required();
+    scan->add_option("--keep", options.keep, "Folder for the pictures taken, for decode-scan");
+    scan->add_option("--quality", options.quality, "PNG to write: what was decoded where, and why not");
+    scan->add_option("--sweeps", options.sweeps, "Of exposure (0: as many as give good pictures)")
+        ->check(CLI::Range(0, 60));
+    scan->add_flag("--anyway", options.anyway, "Also where the room is too bright");
+    scan->add_flag("--json", options.json, "As JSON");
 }
 
 void addStudio(CLI::App& app, StudioOptions& options) {
@@ -331,8 +372,12 @@ int main(int argc, char** argv) {
     addMeasure(app, measuredDelay, measuredRig);
     DecodeScanOptions decodedScan;
     addDecodeScan(app, decodedScan);
+    CalibrateOptions calibration;
+    addCalibrate(app, calibration);
     DoctorOptions doctor;
     addDoctor(app, doctor);
+    ScanOptions scan;
+    addScan(app, scan);
     RigChoice validatedRig;
     auto* validate =
         app.add_subcommand("validate", "Opens, plans and compiles a project and says what is wrong with it");
@@ -353,11 +398,12 @@ int main(int argc, char** argv) {
         if (listDevices) return listDevicesCommand();
         if (app.got_subcommand("decode-scan")) return decodeScanCommand(decodedScan);
         if (app.got_subcommand("doctor")) return doctorCommand(doctor);
-        studio.coreProgram = run.coreProgram = ilf::devices::coreExecutable().string();
+        studio.coreProgram = run.coreProgram = scan.coreProgram = ilf::devices::coreExecutable().string();
         if (app.got_subcommand("plan")) return planCommand(plan);
         if (app.got_subcommand("render")) return renderCommand(render);
         if (app.got_subcommand("run")) return runCommand(run);
         if (app.got_subcommand("seams")) return seamsCommand(seams);
+        if (app.got_subcommand("scan")) return scanCommand(scan);
         if (app.got_subcommand("optics")) {
             const auto* optics = app.get_subcommand("optics");
             if (optics->got_subcommand("eval")) return opticsEvalCommand(opticsEval);
@@ -367,6 +413,7 @@ int main(int argc, char** argv) {
         if (app.got_subcommand("measure"))
             return app.get_subcommand("measure")->got_subcommand("rig") ? measureRigCommand(measuredRig)
                                                                         : measureDelayCommand(measuredDelay);
+        if (app.got_subcommand("calibrate")) return calibrateCommand(calibration);
         if (app.got_subcommand("evaluate")) return evaluateCommand(evaluation);
         if (app.got_subcommand("validate")) return validateCommand(validated, validatedRig);
         return runStudio(studio);

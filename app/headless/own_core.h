@@ -47,6 +47,9 @@ public:
     /// Lets things go wrong, then waits until the core has told a fault and been safe for a while, at most `patience`.
     Result<Mishap> befall(const std::vector<devices::RigMishap>& mishaps, std::chrono::duration<double> patience);
 
+    /// Where its sockets are, for who links to it besides.
+    const std::filesystem::path& directory() const { return directory_; }
+
     /// What the simulated devices show in a slot.
     Result<LightImage> slot(int slot);
     /// What the emulated rig received in its newest whole sweep.

@@ -12,20 +12,8 @@ namespace {
 
 constexpr int kFine = 4;    // rays along a pixel's side where something ends inside it
 constexpr int kCoarse = 3;  // looks along a pixel's side where nothing does
-constexpr float kHighlight = 40.0F;
 /// Luminance of red, green and blue (ITU-R BT.709).
 constexpr std::array<float, 3> kLuminance{0.2126F, 0.7152F, 0.0722F};
-
-/// What one ray of the camera found.
-struct Seen {
-    std::int32_t surface = -1;  ///< -1: nothing
-    std::int32_t look = 0;
-    bool lit = false;
-    float x = 0, y = 0;        ///< on the projector's raster
-    float u = 0, v = 0;        ///< on the surface
-    float depth = 0;           ///< along the ray
-    float lux = 0, shine = 0;  ///< of full light: falling on it, and thrown back as a highlight
-};
 
 struct Tap {
     std::uint32_t pixel;  ///< of the raster
@@ -133,56 +121,14 @@ private:
 }  // namespace
 
 struct LightTransport::Impl {
-    Stage stage;
-    RayTree tree;
+    SceneView view;
     std::vector<std::uint32_t> firstTap;  // of each camera pixel, and one past the last
     std::vector<Tap> taps;
     std::vector<float> albedo;
     std::vector<std::uint8_t> tint;
     SecondBounce bounce;
 
-    explicit Impl(Stage given) : stage(std::move(given)), tree(stage.things.triangles) { look(); }
-
-    Seen seen(double x, double y, Truth* truth = nullptr) const {
-        Seen out;
-        const Vec3 eye = stage.cameraAt.at, along = stage.cameraAt.turnedToWorld(stage.camera.rayThrough(x, y));
-        const auto met = tree.first(eye, along);
-        if (!met) return out;
-        const Triangle& t = tree.triangle(met->triangle);
-        const double a = 1.0 - met->b - met->c;
-        const Vec3 p = eye + met->distance * along;
-        Vec3 n = unit(a * t.normal[0] + met->b * t.normal[1] + met->c * t.normal[2]);
-        if (dot(n, along) > 0.0) n = -1.0 * n;
-        out.surface = t.surface;
-        out.look = t.look;
-        out.depth = static_cast<float>(met->distance);  // the ray's direction has z = 1
-        for (std::size_t i = 0; i < 2; ++i) {
-            const double uv = a * static_cast<double>(t.uv[0][i]) + met->b * static_cast<double>(t.uv[1][i]) +
-                              met->c * static_cast<double>(t.uv[2][i]);
-            (i == 0 ? out.u : out.v) = static_cast<float>(uv);
-        }
-        const Vec3 toLamp = stage.projectorAt.at - p;
-        const auto raster = stage.projector.rasterOf(stage.projectorAt.fromWorld(p));
-        if (raster) {
-            const double away = length(toLamp), cosine = dot(n, toLamp) / away;
-            // A little off the surface, so that it does not shade itself where it is made of flat faces.
-            out.lit = cosine > 0.0 && !tree.blocked(p + 2e-5 * n, toLamp, 1.0);
-            out.x = static_cast<float>((*raster)[0]);
-            out.y = static_cast<float>((*raster)[1]);
-            out.lux = static_cast<float>(stage.projectorLux * std::max(0.0, cosine) / (away * away));
-            const Vec3 mirrored = 2.0 * dot(n, toLamp) * n - toLamp;
-            const double off = std::max(0.0, -dot(mirrored, along) / (away * length(along)));
-            out.shine = static_cast<float>(stage.projectorLux / (away * away)) *
-                        std::pow(static_cast<float>(off), kHighlight) * 20.0F;
-            if (truth != nullptr) truth->projector = *raster;
-        }
-        if (truth != nullptr) {
-            truth->depth_m = met->distance;
-            truth->world = p;
-            truth->lit = out.lit && raster.has_value();
-        }
-        return out;
-    }
+    explicit Impl(Stage stage) : view(std::move(stage)) { look(); }
 
     /// All four corners of a pixel see the same, evenly.
     static bool even(const Seen& a, const Seen& b, const Seen& c, const Seen& d) {
@@ -200,7 +146,7 @@ struct LightTransport::Impl {
                     acrossY = std::max(std::abs(b.y - a.y), std::abs(c.y - a.y));
         if (even(a, b, c, d)) {
             if (a.surface < 0) return;
-            const Look& look = stage.things.looks[static_cast<std::size_t>(a.look)];
+            const Look& look = view.stage().things.looks[static_cast<std::size_t>(a.look)];
             for (int j = 0; j < kCoarse; ++j) {
                 for (int i = 0; i < kCoarse; ++i) {
                     const float s = (static_cast<float>(i) + 0.5F) / kCoarse,
@@ -213,22 +159,23 @@ struct LightTransport::Impl {
         }
         for (int j = 0; j < kFine; ++j) {
             for (int i = 0; i < kFine; ++i) {
-                const Seen s = seen(x + (i + 0.5) / kFine, y + (j + 0.5) / kFine);
+                const Seen s = view.seen(x + (i + 0.5) / kFine, y + (j + 0.5) / kFine);
                 if (s.surface < 0) continue;
-                pixel.look(s, stage.things.looks[static_cast<std::size_t>(s.look)], std::min(acrossX, 2.0F) / kFine,
-                           std::min(acrossY, 2.0F) / kFine, 1.0F / (kFine * kFine));
+                pixel.look(s, view.stage().things.looks[static_cast<std::size_t>(s.look)],
+                           std::min(acrossX, 2.0F) / kFine, std::min(acrossY, 2.0F) / kFine, 1.0F / (kFine * kFine));
             }
         }
     }
 
     void look() {
+        const Stage& stage = view.stage();
         const Size size = stage.camera.size;
         const auto corners = static_cast<std::size_t>(size.width) + 1;
         std::vector<Seen> grid(corners * (static_cast<std::size_t>(size.height) + 1));
         parallelFor(size.height + 1, [&](int y) {
             Seen* row = grid.data() + static_cast<std::size_t>(y) * corners;
             for (int x = 0; x <= size.width; ++x)
-                row[x] = seen(x, y);
+                row[x] = view.seen(x, y);
         });
         const auto count = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
         albedo.resize(count);
@@ -255,26 +202,22 @@ struct LightTransport::Impl {
         taps.reserve(firstTap.back());
         for (const auto& row : rows)
             taps.insert(taps.end(), row.begin(), row.end());
-        if (stage.bounce > 0.0) bounce = SecondBounce(tree, stage.camera, stage.cameraAt, stage.bounce);
+        if (stage.bounce > 0.0) bounce = SecondBounce(view.tree(), stage.camera, stage.cameraAt, stage.bounce);
     }
 };
 
 LightTransport::LightTransport(Stage stage) : impl_(std::make_unique<Impl>(std::move(stage))) {}
 LightTransport::~LightTransport() = default;
 
-const Stage& LightTransport::stage() const { return impl_->stage; }
+const Stage& LightTransport::stage() const { return impl_->view.stage(); }
 const std::vector<std::uint8_t>& LightTransport::tint() const { return impl_->tint; }
 const std::vector<float>& LightTransport::albedo() const { return impl_->albedo; }
 
-std::optional<Truth> LightTransport::truth(double x, double y) const {
-    Truth truth;
-    if (impl_->seen(x, y, &truth).surface < 0) return std::nullopt;
-    return truth;
-}
+std::optional<Truth> LightTransport::truth(double x, double y) const { return impl_->view.truth(x, y); }
 
 void LightTransport::shine(const std::vector<float>& light, double ambientLux, std::vector<float>& out) const {
     const Impl& it = *impl_;
-    const Size size = it.stage.camera.size;
+    const Size size = it.view.stage().camera.size;
     out.resize(it.albedo.size());
     parallelFor((size.height + 31) / 32, [&](int band) {
         const auto width = static_cast<std::size_t>(size.width);

@@ -1,0 +1,71 @@
+#include "devices/scan/core_show.h"
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+namespace ilf::devices {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+/// A real projector arranges its patterns and a lens settles before the first picture.
+constexpr std::chrono::seconds kPatience{30};
+
+}  // namespace
+
+Program restingProgram(const Rig& rig, Dioptre rest, const Image<std::uint8_t>& picture) {
+    Program program;
+    program.waveform = stillWave(rest, rest, rig.sweepRate);
+    program.slotRate = rig.slotRate;
+    program.projectorDelay = rig.projectorDelay;
+    program.projector = rig.projector;
+    program.images = {toTiles(picture)};
+    program.imageOfSlot.assign(static_cast<std::size_t>(slotsPerSweep(rig)), 0);
+    return program;
+}
+
+CoreShow::CoreShow(const std::filesystem::path& runtimeDirectory, Rig rig, Dioptre rest, std::stop_token stop)
+    : link_(runtimeDirectory), rig_(std::move(rig)), rest_(rest), stop_(std::move(stop)),
+      revision_(static_cast<std::uint64_t>(monotonicNs())) {}  // not a number that a studio beside us uses
+
+Result<Second> CoreShow::show(const Image<std::uint8_t>& picture) {
+    const auto patience = Clock::now() + kPatience;
+    const auto stopped = [&]() -> Result<Second> { return fail(Fault::device, "Showing patterns was cancelled."); };
+    const bool first = !link_.status().connected;
+    while (!link_.status().connected) {
+        link_.poll(milliseconds(50));
+        if (stop_.stop_requested()) return stopped();
+        if (Clock::now() > patience)
+            return fail(Fault::device, "The output core does not answer: start it, or try again.");
+    }
+    const Program program = restingProgram(rig_, rest_, picture);
+    const auto sent = link_.send(program, ++revision_, first ? Why::take : Why::live);
+    if (!sent) return tl::unexpected(sent.error());
+    while (link_.status().revisionPlayed != revision_) {
+        link_.poll(milliseconds(10));
+        const Status& status = link_.status();
+        if (stop_.stop_requested()) return stopped();
+        if (!status.fault.empty() && !first) return fail(Fault::device, status.fault);
+        if (!status.lastRefusal.empty()) return fail(Fault::device, status.lastRefusal);
+        if (Clock::now() > patience)
+            return fail(Fault::device, status.fault.empty()
+                                           ? "The output core did not put a pattern on show in time: try again."
+                                           : status.fault);
+    }
+    return Second::fromSi(1e-9 * static_cast<double>(link_.status().swapped_ns));
+}
+
+void CoreShow::safe() noexcept {
+    try {
+        if (!link_.safeLight()) return;
+        // Said by the core when it is so.
+        const auto patience = Clock::now() + std::chrono::seconds(3);
+        while (link_.status().connected && link_.status().light != LightMode::steady && Clock::now() < patience)
+            link_.poll(milliseconds(20));
+    } catch (const std::exception&) {  // out of memory: the core's supervisor sees to safe light
+    }
+}
+
+}  // namespace ilf::devices
