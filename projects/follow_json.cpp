@@ -24,8 +24,13 @@ void set(Json& json, const StreamTarget& stream) { json.set("address", stream.ad
 }  // namespace
 
 Json written(const Follow& follow, Json json) {
-    for (const char* key : {"dictionary", "id", "patch_px", "address"})
-        json.erase(key);
+    // A key that stays keeps its place in the file; those of another target go.
+    if (!std::holds_alternative<MarkerTarget>(follow.target)) {
+        json.erase("dictionary");
+        json.erase("id");
+    }
+    if (!std::holds_alternative<PlanarTarget>(follow.target)) json.erase("patch_px");
+    if (!std::holds_alternative<StreamTarget>(follow.target)) json.erase("address");
     json.set("target", kTargets[follow.target.index()]);
     std::visit([&](const auto& target) { set(json, target); }, follow.target);
     json.set("when_lost", kWhenLost[static_cast<std::size_t>(follow.whenLost)]);

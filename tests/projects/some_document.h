@@ -3,7 +3,7 @@
 
 #include <rapidcheck.h>
 
-#include "core/document/document.h"
+#include "core/document/edit.h"
 
 namespace ilf {
 
@@ -72,6 +72,43 @@ inline Document fullDocument(Size size = {96, 70}) {
     document.wearer.camera = CameraObserver{};
     document.rig.registration =
         registered(Homography<ProjectorFrame, CameraFrame>{{1.1, 0.01, 3, -0.02, 0.9, 4, 1e-5, 2e-5, 1}});
+    return document;
+}
+
+/// The same with what version 2 added: measured depth with its uncertainty, a wearer beside the camera, a fitted
+/// plane's tolerance, and regions that follow.
+inline Document measuredDocument(Size size = {96, 70}, bool withSigma = true) {
+    Document document = fullDocument(size);
+    MeasuredDepth measured;
+    std::vector<float> metres, sigma;
+    for (int i = 0; i < size.width * size.height; ++i) {
+        metres.push_back(i % 50 == 0 ? 0.0F : static_cast<float>((800 + i % 97) * 0.0005));
+        sigma.push_back(i % 50 == 0 ? 0.0F : 0.001F * static_cast<float>(1 + i % 3));
+    }
+    measured.metres = Image<float>(size, 1, std::move(metres));
+    if (withSigma) measured.sigma = Image<float>(size, 1, std::move(sigma));
+    measured.camera = {size, 90.5, 91.25, 47.0, 36.5, {-0.1, 0.01, 0.001, -0.002, 0.0}};
+    measured.step = 0.5_mm;
+    measured.source = "depth camera";
+    measured.provenance = "measured";
+    ViewerPose viewer;
+    viewer.viewerFromCamera.rotation = {0.6, 0, 0.8, 0, 1, 0, -0.8, 0, 0.6};
+    viewer.viewerFromCamera.translation = {0.05, -0.1, 0.3};
+    viewer.sigma = 2.0_mm;
+    viewer.source = "typed";
+    document = *edited(document, SetViewerPose{viewer});
+    document = *edited(document, SetMeasuredDepth{Box<MeasuredDepth>(measured)});
+    const auto follow = [&](std::size_t index, const Follow& what) {
+        Region region = *document.regions[index];
+        region.follow = what;
+        document.regions[index] = Box<Region>(region);
+    };
+    follow(0, {MarkerTarget{"6X6_250", 7}, Follow::WhenLost::blur, 200.0_ms, 1000.0_ms});
+    follow(1, {PlanarTarget{{3, 4, 40, 50}}, Follow::WhenLost::focus, 0.0_ms, 50.0_ms});
+    follow(2, {StreamTarget{"/pose/hand"}, Follow::WhenLost::neutral, 500.0_ms, 500.0_ms});
+    Region slope = *document.regions[1];
+    std::get<PlaneDistance>(slope.distance).tolerance = 3.0_mm;
+    document.regions[1] = Box<Region>(slope);
     return document;
 }
 

@@ -83,6 +83,65 @@ TEST_CASE("project: what is saved opens as the same document, as a folder and zi
     });
 }
 
+TEST_CASE(
+    "project: measured depth, the wearer's place and what regions follow are kept, and distances follow from them") {
+    Folder folder;
+    for (const bool withSigma : {true, false}) {
+        const Document document = measuredDocument({96, 70}, withSigma);
+        for (const char* name : {"measured.ilfd", "measured.ilf"}) {
+            const auto saved = saveProject(folder / name, document, {});
+            REQUIRE_MESSAGE(saved, saved.error().what);
+            const auto opened = openProject(folder / name);
+            REQUIRE_MESSAGE(opened, opened.error().what);
+            CHECK(opened->document == document);
+        }
+        // Whole steps stay the picture they were; what has an uncertainty needs more than that.
+        CHECK(
+            fs::exists(folder / (withSigma ? "measured.ilfd/measured-depth.exr" : "measured.ilfd/measured-depth.png")));
+        CHECK_FALSE(fs::exists(folder / "measured.ilfd/depth.png"));
+        // Saved again without a change it is the same bytes.
+        const auto opened = openProject(folder / "measured.ilfd");
+        const auto again = saveProject(folder / "again.ilfd", opened->document, opened->extras);
+        REQUIRE(again);
+        CHECK(contentOf(folder / "again.ilfd/project.json") == contentOf(folder / "measured.ilfd/project.json"));
+    }
+    // Distances that are no whole steps, and not made from anything, are kept as they are.
+    Document moved = fullDocument();
+    std::vector<float> metres(96 * 70, 1.0F / 3.0F);
+    metres[7] = 0.0F;
+    moved.scene.depth = Box<DepthMap>(DepthMap{Image<float>({96, 70}, 1, std::move(metres)), {}, {}});
+    REQUIRE(saveProject(folder / "moved.ilfd", moved, {}));
+    CHECK(openProject(folder / "moved.ilfd")->document == moved);
+}
+
+TEST_CASE("project: what is wrong with measured depth, the wearer's place or what is followed is named") {
+    const auto refused = [](const std::function<void(Json&)>& change) {
+        Folder folder;
+        REQUIRE(saveProject(folder / "p.ilfd", measuredDocument(), {}));
+        Json json = jsonAt(folder / "p.ilfd/project.json");
+        change(json);
+        folder.put("p.ilfd/project.json", json.dump());
+        const auto opened = openProject(folder / "p.ilfd");
+        return opened ? std::string() : opened.error().what;
+    };
+    CHECK(contains(refused([](Json& j) { j["scene"]["viewer"]["rotation"][0] = 3.0; }), "wearer's place must be"));
+    CHECK(contains(refused([](Json& j) { j["scene"]["viewer"]["translation_m"] = 3.0; }), "viewer.translation_m"));
+    CHECK(
+        contains(refused([](Json& j) { j["scene"]["viewer"]["translation_m"][2] = -5.0; }), "in front of the wearer"));
+    CHECK(contains(refused([](Json& j) { j["scene"]["measured_depth"]["file"] = "gone.exr"; }), "gone.exr"));
+    CHECK(contains(refused([](Json& j) { j["scene"]["measured_depth"]["camera_px"]["fx"] = -1.0; }), "focal lengths"));
+    CHECK(contains(refused([](Json& j) { j["regions"][0]["follow"]["id"] = -1; }), "number of a marker must be"));
+    CHECK(contains(refused([](Json& j) { j["regions"][0]["follow"]["target"] = "cat"; }), "follow.target"));
+    CHECK(
+        contains(refused([](Json& j) { j["regions"][2]["follow"]["address"] = "pose"; }), "pose stream starts with /"));
+}
+
+TEST_CASE("project: a project of version 2 is loaded forever") {
+    const auto opened = openProject(fs::path(ILF_SOURCE_DIR) / "tests/projects/data/version-2.ilfd");
+    REQUIRE_MESSAGE(opened, opened.error().what);
+    CHECK(opened->document == measuredDocument());
+}
+
 TEST_CASE("project: a project of version 1 is loaded forever") {
     const auto opened = openProject(fs::path(ILF_SOURCE_DIR) / "tests/projects/data/version-1.ilfd");
     REQUIRE_MESSAGE(opened, opened.error().what);
@@ -142,7 +201,7 @@ TEST_CASE("project: files of regions that are gone go too, and the picture's fil
     const auto bytes = *encodePicture(picture) + "trailing bytes that another encoder would not write";
     const auto file = readPicture(folder.put("photo.png", bytes));
     REQUIRE(file);
-    Document document = newDocument({Box<Picture>(file->picture), "photo.png", {}, {}});
+    Document document = newDocument({Box<Picture>(file->picture), "photo.png", {}, {}, {}, {}});
     Region region;
     region.id = "gone";
     region.name = "Gone";
@@ -194,8 +253,8 @@ TEST_CASE("project: refusals say what, where, and what would help") {
     CHECK(contains(refusal("wearer.json", "{\"format\": \"illuminatedfocus-rig\"}"), "not a wearer file"));
     CHECK(contains(refusal("rig.json", "{"), "damaged at line 1"));
 
-    CHECK(refusalOf([](Json& j) { j["version"] = 2; }) ==
-          "This project was written by a newer version (format 2). Update, or ask for it to be saved as format 1.");
+    CHECK(refusalOf([](Json& j) { j["version"] = 3; }) ==
+          "This project was written by a newer version (format 3). Update, or ask for it to be saved as format 2.");
     CHECK(contains(refusalOf([](Json& j) { j["version"] = "new"; }), "version must be a number"));
     CHECK(contains(refusalOf([](Json& j) { j["regions"][0]["distance"]["value_m"] = "far"; }),
                    "regions[0].distance.value_m must be a number."));
