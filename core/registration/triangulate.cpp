@@ -62,10 +62,12 @@ struct Geometry {
     const ProcamCalibration& calibration;
     SlopeTable camera, projector;
     double match2, projector2, camera2;  ///< squared deviations, pixels
+    double common2;                      ///< squared share of depth
 
     Geometry(const ProcamCalibration& c, const TriangulateOptions& options)
         : calibration(c), camera(c.camera), projector(c.projector), match2(options.match_px * options.match_px),
-          projector2(0.5 * c.projectorRms_px * c.projectorRms_px), camera2(0.5 * c.cameraRms_px * c.cameraRms_px) {}
+          projector2(0.5 * c.projectorRms_px * c.projectorRms_px), camera2(0.5 * c.cameraRms_px * c.cameraRms_px),
+          common2(options.common * options.common) {}
 };
 
 struct Measured {
@@ -94,7 +96,7 @@ Measured measuredAt(const Geometry& g, int x, int y, double px, double py) {
     const double cover = projector.fx * m.z / (g.calibration.camera.fx * before);
     const double px2 = g.match2 + g.projector2 + cover * cover * g.camera2;
     m.missSigma_px = std::sqrt(px2);
-    m.sigma = m.missSigma_px * before / std::sqrt(aa);
+    m.sigma = std::sqrt(px2 * before * before / aa + g.common2 * m.z * m.z);
     return m;
 }
 
