@@ -7,6 +7,7 @@
 #include "app/headless/decode_scan_command.h"
 #include "app/headless/doctor_command.h"
 #include "app/headless/evaluate_command.h"
+#include "app/headless/gltf_command.h"
 #include "app/headless/lens_command.h"
 #include "app/headless/measure_command.h"
 #include "app/headless/optics_command.h"
@@ -229,6 +230,42 @@ void addDecodeScan(CLI::App& app, DecodeScanOptions& options) {
     decode->add_flag("--json", options.json, "As JSON");
 }
 
+struct GltfOptions {
+    std::string file;
+    bool json = false;
+    GltfDepthOptions depth;
+};
+
+void addGltf(CLI::App& app, GltfOptions& options) {
+    auto* gltf =
+        app.add_subcommand("gltf", "glTF scenes (.gltf, .glb): what is in them, and their depth as a camera sees it");
+    gltf->require_subcommand(1);
+    auto* info = gltf->add_subcommand("info", "Triangles, box, meshes, cameras, and what was repaired or ignored");
+    info->footer("A file that is no sound glTF is refused with what is wrong and where (exit code 1).\n"
+                 "JSON: triangles, vertices, bbox_min, bbox_max (metres; of decoded vertices), problems, meshes,\n"
+                 "materials, cameras; of a refused file: refused, problems.");
+    info->add_option("FILE", options.file, "Scene")->required();
+    info->add_flag("--json", options.json, "As JSON");
+    GltfDepthOptions& depth = options.depth;
+    auto* draw = gltf->add_subcommand("depth", "Draws depth along a camera's axis, and a picture");
+    draw->add_option("FILE", depth.file, "Scene")->required();
+    draw->add_option("--camera", depth.camera, "One of the file's own, counted from 0")->check(CLI::NonNegativeNumber);
+    draw->add_option("--pose", depth.pose, "X,Y,Z,TX,TY,TZ: where the camera is and a point it looks at, metres");
+    draw->add_option("--pairs", depth.pairs,
+                     "CSV of x,y,z,u,v: points of the scene (metres) and their pixels; four or more");
+    draw->add_option("--focal", depth.focal_px, "In pixels; with --pose or --pairs, instead of --fov")
+        ->check(CLI::PositiveNumber);
+    draw->add_option("--fov", depth.fov_deg, "Degrees from top to bottom")
+        ->check(CLI::Range(1.0, 170.0))
+        ->capture_default_str();
+    draw->add_option("--size", depth.size, "Of the picture")->capture_default_str();
+    draw->add_option("--step", depth.step_mm, "Millimetres of a step of a 16-bit PNG")
+        ->check(CLI::Range(0.001, 1000.0))
+        ->capture_default_str();
+    draw->add_option("-o,--out", depth.out, ".png (16 bits, 0: a hole), .pfm or .exr (metres)")->required();
+    draw->add_option("--colour", depth.colour, "The same view as a picture (.png)");
+}
+
 void addDoctor(CLI::App& app, DoctorOptions& options) {
     auto* doctor = app.add_subcommand("doctor", "What is attached, whether it can be used, and what to do");
     doctor->footer(
@@ -376,6 +413,8 @@ int main(int argc, char** argv) {
     addCalibrate(app, calibration);
     DoctorOptions doctor;
     addDoctor(app, doctor);
+    GltfOptions gltf;
+    addGltf(app, gltf);
     ScanOptions scan;
     addScan(app, scan);
     RigChoice validatedRig;
@@ -414,6 +453,9 @@ int main(int argc, char** argv) {
             return app.get_subcommand("measure")->got_subcommand("rig") ? measureRigCommand(measuredRig)
                                                                         : measureDelayCommand(measuredDelay);
         if (app.got_subcommand("calibrate")) return calibrateCommand(calibration);
+        if (app.got_subcommand("gltf"))
+            return app.get_subcommand("gltf")->got_subcommand("info") ? gltfInfoCommand(gltf.file, gltf.json)
+                                                                      : gltfDepthCommand(gltf.depth);
         if (app.got_subcommand("evaluate")) return evaluateCommand(evaluation);
         if (app.got_subcommand("validate")) return validateCommand(validated, validatedRig);
         return runStudio(studio);
