@@ -14,12 +14,13 @@ struct SurfaceSelection {
 };
 
 /// The connected surface around `seed`. Works in vergence, in which a plane of any slope has no second difference and a
-/// depth camera's noise is about the same near and far: the surface ends where the second difference over 6 px, of the
-/// map smoothed over 5 px, exceeds four robust standard deviations of itself over the picture (0.004 D at least, and
-/// three of the map's own standard deviations where those are known), which is so at depth steps and at creases alike.
-/// From there it is continued, along its own slope, to the last pixel that still lies on it. Holes of at most 400
-/// pixels inside it are filled. Edge smoothed by one pixel. Refused: no depth map of the picture's size, a click
-/// outside it, and a click where nothing was measured within 6 px.
+/// depth camera's noise is about the same near and far: the surface ends where the second difference over 6 px of the
+/// map smoothed over 5 px, or that over 14 px smoothed over 9 px, exceeds four standard deviations of the noise
+/// over the picture (0.004 D at least, and three of a pixel's own standard deviations where those are known), which is
+/// so at depth steps and at creases alike. What is too small for the long baseline is judged by the short one alone.
+/// From there the surface is continued, along its own slope, to the last pixel that still lies on it. Holes of at most
+/// 400 pixels inside it are filled. Edge smoothed by one pixel. Refused: no depth map of the picture's size, a click
+/// outside it, and a click where no surface was measured close by.
 Result<Mask> surfaceAt(const DepthMap& depth, const Picture& picture, Point<CameraFrame> seed,
                        const SurfaceSelection& how = {});
 
