@@ -135,6 +135,8 @@ constexpr auto table = std::to_array<CommandInfo>({
      "Steady uniform white light, lens at rest, at once."},
     {C::acknowledgeFault, "rig.acknowledge", "Acknowledge fault", "Rig", none, none,
      "The fault was seen; its chip shows the device's state again."},
+    {C::registerCamera, "rig.register", "Register camera...", "Rig", plain(f(4)), none,
+     "Find where the camera's picture lands on the projector: by a scan, by corners, by point pairs, by a chessboard."},
 
     {C::shortcuts, "help.shortcuts", "Shortcuts", "Help", shift(keys::slash), plain(keys::f1),
      "All keys on one sheet."},

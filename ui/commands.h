@@ -79,6 +79,7 @@ enum class Command {
     liveTake,
     safeLight,
     acknowledgeFault,
+    registerCamera,
     shortcuts,
     about,
 };

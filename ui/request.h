@@ -9,6 +9,7 @@
 #include "core/document/edit.h"
 #include "ui/commands.h"
 #include "ui/measure_view.h"
+#include "ui/register_view.h"
 
 namespace ilf::ui {
 
@@ -94,13 +95,45 @@ struct StartMeasuring {
 struct StoreMeasured {
     std::string path;
 };
+/// Goes through the wizard that registers the camera with the projector; what does not belong to its state is not done.
+struct Register {
+    enum class Step {
+        open,     ///< the page, with the live picture
+        light,    ///< is this room's light low enough, and does the camera see this projector?
+        scan,     ///< take all pictures, decode, check
+        board,    ///< the same with a chessboard that the projector shows
+        cancel,   ///< what is done now ends in steady white light
+        marks,    ///< the projector shows its frame, or a numbered cross, or no longer
+        another,  ///< the cross goes to another place
+        picture,  ///< the live picture instead of the quality map, and back
+        accept,   ///< the registration goes into the rig
+        close,
+    } step = Step::open;
+    RegisterSetup setup{};
+};
+struct ChooseRegisterWay {
+    RegisterWay way = RegisterWay::scan;
+};
+/// Where a corner of the raster is seen: 0 upper left, then clockwise.
+struct PlaceCorner {
+    int corner = 0;
+    Point<CameraFrame> at;
+};
+/// Where the cross is seen that is shown now.
+struct PlaceCross {
+    Point<CameraFrame> at;
+};
+struct RemovePair {
+    std::size_t pair = 0;
+};
 /// Answer to the recovery question at start.
 struct Recover {
     enum class Choice { recover, openSaved, skip } choice = Choice::recover;
 };
 using Request = std::variant<EditRequest, CommitGesture, CancelGesture, RunCommand, OpenFile, SaveFile, ExportView,
                              OpenCamera, SeekVideo, SelectObject, SelectFlood, GoToHistory, AcknowledgeFault,
-                             LoadDepthMap, UseRig, SaveRig, Measure, StartMeasuring, StoreMeasured, Recover>;
+                             LoadDepthMap, UseRig, SaveRig, Measure, StartMeasuring, StoreMeasured, Register,
+                             ChooseRegisterWay, PlaceCorner, PlaceCross, RemovePair, Recover>;
 using Requests = std::vector<Request>;
 
 }  // namespace ilf::ui

@@ -3,6 +3,7 @@
 
 #include "ui/devices_card.h"
 #include "ui/measure_page.h"
+#include "ui/register_page.h"
 #include "ui/widgets.h"
 
 namespace ilf::ui {
@@ -65,6 +66,7 @@ void outputCore(Panel& p) {
 void rigPage(Panel& p) {
     devicesCard(p);
     measureButton(p);
+    registerCard(p);
     if (p.view.core.connected) outputCore(p);
     ImGui::Dummy({1, p.px(4)});
     heading("RIG");

@@ -210,7 +210,11 @@ std::string whyNot(Command command, const View& view, const State& state) {
     case Command::openCamera:
         return view.cameras.empty() ? "No camera was found." : "";
     case Command::take:
+        if (view.registering && view.registering->patterns())
+            return "The projector shows patterns for the registration: cancel that first.";
         return !view.core.connected ? "The output core is not connected." : "";
+    case Command::registerCamera:
+        return view.registering ? "The page is open." : view.measuring ? "A rig is being measured." : "";
     case Command::acknowledgeFault:
         return view.core.lastFault.empty() ? "No fault." : "";
     case Command::duplicateRegion:
@@ -267,6 +271,9 @@ void run(Command command, const View& view, State& state, Requests& requests) {
         break;
     case Command::acknowledgeFault:
         requests.push_back(AcknowledgeFault{});
+        return;
+    case Command::registerCamera:
+        requests.push_back(Register{Register::Step::open});
         return;
     case Command::toolMove:
         pick(state, Tool::move, requests);

@@ -16,6 +16,7 @@
 #include "ui/commands.h"
 #include "ui/layout.h"
 #include "ui/measure_view.h"
+#include "ui/register_view.h"
 
 namespace ilf::ui {
 
@@ -148,8 +149,11 @@ struct State {
 
     std::optional<FileDialog> fileDialog;
     std::optional<RecoveryQuestion> recovery;
-    MeasureSetup measure;   ///< being typed
-    std::string rigWanted;  ///< asked for while something plays; waits for the operator's word
+    MeasureSetup measure;  ///< being typed
+    RegisterSetup registering;
+    std::string registerScene;  ///< being typed: words for the emulated scene
+    int registerCorner = -1;    ///< being dragged
+    std::string rigWanted;      ///< asked for while something plays; waits for the operator's word
     bool shortcutsOpen = false, aboutOpen = false, popupsOpen = false;
     std::vector<Toast> toasts;
 };

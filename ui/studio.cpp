@@ -5,6 +5,7 @@
 
 #include "ui/measure_page.h"
 #include "ui/panel.h"
+#include "ui/register_page.h"
 #include "ui/widgets.h"
 
 namespace ilf::ui {
@@ -68,18 +69,20 @@ Requests studio(const View& view, State& state, const Input& input) {
     p.at = layout(window, scale, state.panels);
 
     topBar(p);
-    const bool measures = view.measuring.has_value();
-    if (measures)
+    const bool page = view.measuring || view.registering;  // in the picture's place
+    if (view.measuring)
         measurePage(p);
+    else if (view.registering)
+        registerPage(p);
     else
         canvas(p);
     if (!state.panels.hidden) {
         toolBar(p);
-        if (!measures) canvasHeader(p);
+        if (!page) canvasHeader(p);
         regionsPanel(p);
         selectedPanel(p);
         pagesPanel(p);
-        if (!measures) chartsRow(p);
+        if (!page) chartsRow(p);
         statusLine(p);
         splitters(p);
     }

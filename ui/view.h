@@ -16,6 +16,7 @@
 #include "core/plan/plan.h"
 #include "core/plan/report.h"
 #include "ui/measure_view.h"
+#include "ui/register_view.h"
 
 namespace ilf::ui {
 
@@ -126,11 +127,13 @@ struct View {
     bool unsaved = false;
     double savedAgo_s = -1.0;  ///< negative: never
     std::vector<RecentFile> recent{};
-    std::vector<std::string> cameras{};      ///< stable ids
-    bool busySelecting = false;              ///< click-select is at work
-    std::optional<MeasureView> measuring{};  ///< present: a rig is measured, or about to be
-    double time_s = 0.0;                     ///< monotonic
-    double scale = 1.0;                      ///< content scale of the display
+    std::vector<std::string> cameras{};         ///< stable ids
+    bool busySelecting = false;                 ///< click-select is at work
+    std::optional<MeasureView> measuring{};     ///< present: a rig is measured, or about to be
+    std::optional<RegisterView> registering{};  ///< present: a camera is registered with the projector
+    Texture registerPicture{};                  ///< of its picture
+    double time_s = 0.0;                        ///< monotonic
+    double scale = 1.0;                         ///< content scale of the display
 };
 
 }  // namespace ilf::ui

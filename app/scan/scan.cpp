@@ -14,12 +14,6 @@ namespace {
 
 using devices::ScanProgress;
 
-Result<std::unique_ptr<devices::CameraSource>> opened(const ScanOrder& order) {
-    if (devices::isEmulatedCamera(order.camera))
-        return devices::openEmulatedCamera(order.camera, order.runtimeDirectory);
-    return devices::openCameraSource(order.camera);
-}
-
 Result<MapCheck> checkedOn(devices::PatternCamera& taker, const DenseMap& map, Pattern::Kind kind, Size projector) {
     const Pattern pattern = checkPattern(kind, projector);
     const auto pair = taker.pair(pattern);
@@ -85,13 +79,19 @@ Result<void> evaluate(const ScanOrder& order, devices::PatternCamera& taker, con
 
 }  // namespace
 
+Result<std::unique_ptr<devices::CameraSource>> openedCamera(const ScanOrder& order) {
+    if (devices::isEmulatedCamera(order.camera))
+        return devices::openEmulatedCamera(order.camera, order.runtimeDirectory);
+    return devices::openCameraSource(order.camera);
+}
+
 std::string provenanceOf(const ScanOrder& order) {
     if (devices::isEmulatedCamera(order.camera)) return "emulated";
     return order.camera == devices::kSimulatedCameraId ? "simulated" : "measured";
 }
 
 Result<ScanOutcome> scanned(const ScanOrder& order, const devices::ScanWatch& watch, const std::stop_token& stop) {
-    const auto camera = opened(order);
+    const auto camera = openedCamera(order);
     if (!camera) return tl::unexpected(camera.error());
     devices::CoreShow show(order.runtimeDirectory, order.rig, order.rest, stop);
     ScanOutcome outcome;

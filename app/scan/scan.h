@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -37,6 +38,9 @@ struct ScanOutcome {
 /// shown anew. Blocks for tens of seconds: `stop` ends it soon. However it ends, light is steady and white, lenses at
 /// rest, and safe light is held until the next TAKE. Nobody else may send to the core meanwhile.
 Result<ScanOutcome> scanned(const ScanOrder& order, const devices::ScanWatch& watch, const std::stop_token& stop);
+
+/// The order's camera; nobody else may have it open.
+Result<std::unique_ptr<devices::CameraSource>> openedCamera(const ScanOrder& order);
 
 /// "simulated", "emulated" or "measured": what may be said of light and camera of this order.
 std::string provenanceOf(const ScanOrder& order);

@@ -5,14 +5,14 @@
 
 namespace ilf::app {
 
-Scanner::Scanner(ScanOrder order, std::function<void()> onNews)
-    : thread_([this, order = std::move(order), onNews = std::move(onNews)](const std::stop_token& stop) {
+Scanner::Scanner(ScanWork work, std::function<void()> onNews)
+    : thread_([this, work = std::move(work), onNews = std::move(onNews)](const std::stop_token& stop) {
           const auto watch = [&](const devices::ScanProgress& progress) {
               progress_.put(progress);
               onNews();
           };
           try {
-              result_.put(scanned(order, watch, stop));
+              result_.put(work(watch, stop));
           } catch (const std::exception& e) {  // a library threw where nobody expected it
               result_.put(fail(Fault::device, std::string("The scan stopped by an unexpected failure: ") + e.what()));
           }

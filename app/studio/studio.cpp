@@ -101,8 +101,8 @@ Studio::Studio(StudioOptions options, std::vector<std::string> coreArguments, st
                OpenedFile opened)
     : options_(std::move(options)), window_(std::move(window)), editor_(opened.document), keeper_(&Window::wake),
       camera_(&Window::wake), selector_(&Window::wake), measurer_(devices::runtimeDirectory(), &Window::wake),
-      times_(!options_.frameTimes.empty()), changedAt_(Clock::now()),
-      worker_(*simulatedLens(options_.rig), &Window::wake),
+      registrar_(devices::runtimeDirectory(), &Window::wake), times_(!options_.frameTimes.empty()),
+      changedAt_(Clock::now()), worker_(*simulatedLens(options_.rig), &Window::wake),
       link_(options_.coreProgram, std::move(coreArguments), devices::runtimeDirectory(), &Window::wake) {
     if (!options_.resetLayout) ui_ = ui::withLayout(ui_, keeper_.layoutText());
     ui_.mode = startMode(options_.view);
@@ -163,6 +163,7 @@ void Studio::frame() {
     times_.lap(FrameStage::marks);
     const bool partly = pictures_.show(seen_, kUploadBudget);
     if (ui::wants(ui_).lights) pictures_.showLights(done_);
+    if (registrar_.view()) pictures_.showRegistering(registrar_.view()->picture);
     times_.lap(FrameStage::views);
     window_->beginFrame();
     const ui::Requests requests = ui::studio(view(), ui_, input);
@@ -196,6 +197,7 @@ void Studio::collect() {
     if (auto news = link_.tryTake()) takeNews(*std::move(news));
     if (measurer_.collect()) quietFrames_ = 0;
     lendDevices();
+    tendRegistering();
     if (camera_.collect()) takeFrame();
     for (const std::string& sentence : camera_.takeSentences())
         say(sentence, ui::Tone::warning);
@@ -264,6 +266,7 @@ void Studio::takeNews(LinkNews news) {
 }
 
 void Studio::takeFrame() {
+    if (registrar_.view()) return registrar_.livePicture(camera_.frame().rgb);
     if (camera_.live()) pictures_.showLive(camera_.frame().rgb);
 }
 
@@ -296,6 +299,11 @@ void Studio::take() {
     if (measurer_.busy()) {
         liveTake_ = false;
         return say("A rig is being measured: store or cancel that, then press TAKE.", ui::Tone::warning);
+    }
+    if (registrar_.shows()) {
+        liveTake_ = false;
+        return say("The projector shows patterns for the registration: cancel that, then press TAKE.",
+                   ui::Tone::warning);
     }
     if (!core_.connected) {
         liveTake_ = false;
@@ -387,6 +395,7 @@ ui::View Studio::view() const {
     view.cameras = camera_.ids();
     view.busySelecting = selector_.busy();
     view.measuring = measurer_.view();
+    view.registering = registrar_.view();
     view.time_s = now_s();
     view.scale = window_->contentScale();
     return view;

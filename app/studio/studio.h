@@ -13,6 +13,7 @@
 #include "app/studio/link.h"
 #include "app/studio/measurer.h"
 #include "app/studio/options.h"
+#include "app/studio/registrar.h"
 #include "app/studio/selector.h"
 #include "app/studio/worker.h"
 #include "app/window/frame_times.h"
@@ -71,13 +72,22 @@ private:
     void on(const ui::Measure& request);
     void on(const ui::StartMeasuring& request);
     void on(const ui::StoreMeasured& request);
+    void on(const ui::Register& request);
+    void on(const ui::ChooseRegisterWay& request);
+    void on(const ui::PlaceCorner& request);
+    void on(const ui::PlaceCross& request);
+    void on(const ui::RemovePair& request);
     void on(const ui::Recover& request);
 
     void show(OpenedFile opened);  ///< another project altogether
     void measure();                ///< opens the page, or says why not
     void lendDevices();            ///< to the measurer, or takes them back, as it wants
     void useChosenRig();           ///< the one the studio was started with, as an edit like any other
+    void registerCamera();         ///< opens the page, or says why not
+    void tendRegistering();        ///< what it found, and which camera it wants
+    void writeRegistration(const Registrar::ToWrite& found);
     void setScene(Scene scene);
+    Scene carriedOver(Scene scene) const;  ///< with what the scene before it knows and its picture does not change
     void take();
     void forgetTake();
     void sendIfDue();
@@ -96,6 +106,9 @@ private:
     Latency latency_;
     Measurer measurer_;
     bool lent_ = false;  ///< devices are asked from the output core, or lent already
+    Registrar registrar_;
+    std::string registeringCamera_;  ///< open for the page
+    bool cameraBefore_ = false;      ///< one was open before the page was
 
     Done done_;  ///< the newest of the worker
     Seen seen_;  ///< the newest of the viewer

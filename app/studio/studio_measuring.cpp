@@ -30,6 +30,8 @@ void Studio::on(const ui::Measure& request) {
 }
 
 void Studio::measure() {
+    if (registrar_.view())
+        return say("A camera is being registered: close that page before measuring the rig.", ui::Tone::warning);
     const std::string& word = options_.rig.rig;
     ui::CoreStatus simulated;
     simulated.connected = true;

@@ -80,6 +80,7 @@ void Studio::on(const ui::RunCommand& request) {
         forgetTake();
         link_.safeLight();
         measurer_.stopStep();
+        registrar_.cancel();
         break;
     case Command::acknowledgeFault:
         on(ui::AcknowledgeFault{});
@@ -106,6 +107,7 @@ void Studio::on(const ui::OpenFile& request) {
 }
 
 void Studio::show(OpenedFile opened) {
+    registrar_.close();
     camera_.close();
     pictures_.hideLive();
     forgetTake();
@@ -133,6 +135,10 @@ void Studio::useChosenRig() {
 void Studio::on(const ui::UseRig& request) {
     if (measurer_.busy())
         return say("A rig is being measured: store or cancel that before choosing another.", ui::Tone::warning);
+    if (registrar_.shows())
+        return say("The projector shows patterns for the registration: cancel that before choosing another rig.",
+                   ui::Tone::warning);
+    registrar_.close();
     measurer_.cancel();  // a page that asks about the rig before this one
     RigChoice choice = options_.rig;
     choice.rig = request.rig;
@@ -153,7 +159,9 @@ void Studio::on(const ui::SaveRig& request) {
         written ? ui::Tone::note : ui::Tone::error);
 }
 
-void Studio::setScene(Scene scene) {
+void Studio::setScene(Scene scene) { edit(SetScene{carriedOver(std::move(scene))}); }
+
+Scene Studio::carriedOver(Scene scene) const {
     const Scene& now = editor_.document().scene;
     if (scene.size() == now.size()) {
         scene.depth = now.depth;
@@ -163,7 +171,7 @@ void Studio::setScene(Scene scene) {
         }
     }
     scene.viewer = now.viewer;
-    edit(SetScene{std::move(scene)});
+    return scene;
 }
 
 void Studio::on(const ui::SaveFile& request) { save(request.path); }
@@ -200,7 +208,10 @@ void Studio::on(const ui::ExportView& request) {
         written ? ui::Tone::note : ui::Tone::error);
 }
 
-void Studio::on(const ui::OpenCamera& request) { camera_.openLive(request.id); }
+void Studio::on(const ui::OpenCamera& request) {
+    if (registrar_.view()) return registrar_.chooseCamera(request.id);
+    camera_.openLive(request.id);
+}
 
 void Studio::on(const ui::SeekVideo& request) { camera_.seek(request.position); }
 

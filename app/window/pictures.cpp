@@ -95,10 +95,17 @@ bool Pictures::upload(EyeTexture& eye, const std::shared_ptr<const ScreenView>& 
 
 void Pictures::showLive(const Image<std::uint8_t>& frame) { live_.upload(frame, true); }
 
+void Pictures::showRegistering(const Image<std::uint8_t>& picture) {
+    if (picture.empty() || picture.same(shownRegistering_)) return;
+    registering_.upload(picture, true);
+    shownRegistering_ = picture;
+}
+
 void Pictures::fill(ui::View& view) const {
     view.scene = scene_.handle();
     view.overlay = overlay_.handle();
     view.live = live_.handle();
+    view.registerPicture = registering_.handle();
     view.plain = plain_.handle();
     for (std::size_t eye = 0; eye < 2; ++eye)
         view.perceived[eye] = perceived_[eye].texture.handle();

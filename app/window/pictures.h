@@ -28,6 +28,8 @@ public:
     bool show(const Seen& seen, std::chrono::microseconds budget);
     void showLive(const Image<std::uint8_t>& frame);
     void hideLive() { live_.clear(); }
+    /// Of the registering page: a camera's picture, or a quality map.
+    void showRegistering(const Image<std::uint8_t>& picture);
 
     /// Fills in the textures of a view.
     void fill(ui::View& view) const;
@@ -45,14 +47,14 @@ private:
     bool upload(EyeTexture& eye, const std::shared_ptr<const ScreenView>& view,
                 std::chrono::steady_clock::time_point until);
 
-    GlTexture scene_, overlay_, live_, plain_;
+    GlTexture scene_, overlay_, live_, plain_, registering_;
     std::array<EyeTexture, 2> perceived_;
     std::vector<GlTexture> lights_;
 
     // What the textures show, to find what differs.
     Box<Picture> shownPicture_;
     std::optional<ui::OverlaySubject> shownRegions_;
-    Image<std::uint8_t> shownPlain_;
+    Image<std::uint8_t> shownPlain_, shownRegistering_;
     std::vector<LightImage> shownLights_;
     std::uint64_t tilesSent_ = 0;
 };

@@ -57,6 +57,17 @@ Result<Second> CoreShow::show(const Image<std::uint8_t>& picture) {
     return Second::fromSi(1e-9 * static_cast<double>(link_.status().swapped_ns));
 }
 
+Result<void> CoreShow::hold(std::chrono::milliseconds time) {
+    for (const auto end = Clock::now() + time; Clock::now() < end && !stop_.stop_requested();)
+        link_.poll(milliseconds(10));
+    const Status& status = link_.status();
+    if (!status.connected) return fail(Fault::device, "The connection to the output core was lost.");
+    if (status.light == LightMode::steady)
+        return fail(Fault::device,
+                    status.fault.empty() ? "Safe light was asked for: nothing is shown any more." : status.fault);
+    return {};
+}
+
 void CoreShow::safe() noexcept {
     try {
         if (!link_.safeLight()) return;

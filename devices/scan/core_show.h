@@ -1,6 +1,7 @@
 // Shows patterns through an output core: programs whose every slot is the picture and whose wave rests.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <stop_token>
 
@@ -21,6 +22,8 @@ public:
     CoreShow(const std::filesystem::path& runtimeDirectory, Rig rig, Dioptre rest, std::stop_token stop = {});
 
     Result<Second> show(const Image<std::uint8_t>& picture) override;
+    /// Keeps the link alive for `time` while what was shown last stays; refused once somebody asked for safe light.
+    Result<void> hold(std::chrono::milliseconds time);
     void safe() noexcept override;
     Size projector() const override { return rig_.projector; }
     Second sweep() const override { return 1.0 / rig_.sweepRate; }

@@ -1,0 +1,317 @@
+#include "ui/register_page.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <string>
+
+#include "core/base/as_text.h"
+#include "ui/new_region.h"
+#include "ui/widgets.h"
+
+namespace ilf::ui {
+namespace {
+
+using Step = Register::Step;
+using Phase = RegisterView::State;
+
+/// Beside the button before it, or below where there is no room.
+bool button(Panel& p, const char* words, const char* help, bool enabled = true) {
+    const float width = std::max(p.px(80), ImGui::CalcTextSize(words, nullptr, true).x + p.px(24));
+    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+    ImGui::BeginDisabled(!enabled);
+    const bool pressed = ImGui::Button(words, {width, p.px(34)});
+    ImGui::EndDisabled();
+    tooltip(help);
+    ImGui::SameLine();
+    return pressed;
+}
+
+void ask(Panel& p, Step step) { p.requests.push_back(Register{step, p.state.registering}); }
+
+std::string px(double value) { return asText("%.2f px", value); }
+
+/// Which camera, and what the emulated scene shall be.
+void cameraRow(Panel& p, const RegisterView& r) {
+    rowLabel(p, "Camera", "Whose picture regions are painted on.");
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+    const bool free = r.state != Phase::working && r.state != Phase::stopping;
+    ImGui::BeginDisabled(!free);
+    if (ImGui::BeginCombo("###registerCamera", r.camera.c_str())) {
+        for (const std::string& id : p.view.cameras) {
+            if (ImGui::Selectable(id.c_str(), id == r.camera)) p.requests.push_back(OpenCamera{id});
+        }
+        ImGui::EndCombo();
+    }
+    ImGui::EndDisabled();
+    if (!r.emulated) return;
+    rowLabel(p, "Scene",
+             "The emulated scene in words, with commas between them: what goes wrong with it (hand, dark, "
+             "saturated, wrong-screen, frozen, delay=20, ambient=2000, after=60,bump=3), or board=1.");
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+    ImGui::BeginDisabled(!free);
+    if (ImGui::InputTextWithHint("###registerScene", "a desk, nothing wrong", &p.state.registerScene,
+                                 ImGuiInputTextFlags_EnterReturnsTrue)) {
+        const std::string& words = p.state.registerScene;
+        p.requests.push_back(OpenCamera{words.empty() ? "emulated" : "emulated:" + words});
+    }
+    ImGui::EndDisabled();
+}
+
+void lightLine(const RegisterView& r) {
+    if (!r.light) return;
+    const RegisterLight& light = *r.light;
+    heading("ROOM LIGHT");
+    text(light.go ? "Go" : "No", light.go ? colour::good : colour::fault, Font::strong);
+    ImGui::SameLine();
+    text(asText("%.0f %% of the light is the projector's", 100.0 * light.projectorShare), colour::text);
+    wrapped(asText("White is %.0f of 255 above black", light.contrast) +
+                (light.exposure_s > 0.0 ? asText("; exposure locked at %.1f ms.", 1e3 * light.exposure_s)
+                                        : "; the camera's own exposure."),
+            colour::dim, Font::small);
+    if (!light.go) wrapped(light.what, colour::fault);
+}
+
+void findings(const RegisterView& r) {
+    if (r.decodedShare < 0.0) return;
+    heading("SCAN");
+    text(asText("%.1f %% of what is lit was decoded", 100.0 * r.decodedShare));
+    for (const ScanFinding& finding : r.findings) {
+        const bool failure = finding.weight == ScanFinding::Weight::failure;
+        const bool note = finding.weight == ScanFinding::Weight::note;
+        wrapped(finding.what, failure ? colour::fault : note ? colour::dim : colour::warn);
+    }
+    for (const std::string& remark : r.remarks)
+        wrapped(remark, colour::dim, Font::small);
+}
+
+/// Colours of the quality map, each with its words: nobody has to tell them apart by hue alone.
+void legend(Panel& p, const RegisterView& r) {
+    if (!r.quality) return;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    for (const QualityColour& entry : r.legend) {
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const float side = ImGui::GetTextLineHeight();
+        const ImU32 ink = rgb((static_cast<unsigned>(entry.rgb[0]) << 16U) |
+                              (static_cast<unsigned>(entry.rgb[1]) << 8U) | entry.rgb[2]);
+        draw.AddRectFilled(at, {at.x + side, at.y + side}, ink);
+        draw.AddRect(at, {at.x + side, at.y + side}, colour::line);
+        ImGui::SetCursorScreenPos({at.x + side + p.px(8), at.y});
+        wrapped(entry.words, colour::text, Font::small);
+    }
+}
+
+void found(Panel& p, const RegisterView& r) {
+    if (!r.found) return;
+    const RegisterFound& f = *r.found;
+    heading("FOUND");
+    text(f.way == RegisterWay::scan ? "The map holds on stripes shown anew" : "A registration by " + word(f.way),
+         colour::good, Font::strong);
+    if (f.way == RegisterWay::corners)
+        wrapped("Four corners always fit: look whether the frame lies on what the projector shows.", colour::dim,
+                Font::small);
+    else
+        text("Residual " + px(f.rms_px) + " rms, " + px(f.worst_px) +
+             (f.way == RegisterWay::scan ? " the worse axis" : " the worst"));
+    text(std::to_string(f.points) + (f.way == RegisterWay::scan ? " pixels" : " points") + ", " + f.provenance,
+         colour::dim, Font::small);
+    if (!f.note.empty()) wrapped(f.note, colour::warn);
+    ImGui::Checkbox("Its picture becomes the scene###registerAsScene", &p.state.registering.asScene);
+    tooltip(
+        "The camera's picture under steady white light. Regions stay; where its size is another they are resampled.");
+    if (button(p, "Accept###registerAccept", "The registration goes into the rig; undo brings back what was."))
+        ask(p, Step::accept);
+    ImGui::NewLine();
+}
+
+void working(Panel& p, const RegisterView& r) {
+    const bool stopping = r.state == Phase::stopping;
+    text(stopping          ? "Light becomes steady and white \u2026"
+         : r.doing.empty() ? "Beginning \u2026"
+                           : r.doing,
+         colour::focus, Font::strong);
+    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, colour::focus);
+    ImGui::ProgressBar(static_cast<float>(r.done) / static_cast<float>(std::max(1, r.all)),
+                       {ImGui::GetContentRegionAvail().x, p.px(8)}, "");
+    ImGui::PopStyleColor();
+    if (!stopping && button(p, "Cancel###registerCancel", "Steady white light at once; nothing is kept."))
+        ask(p, Step::cancel);
+    ImGui::NewLine();
+}
+
+void scanPart(Panel& p, const RegisterView& r) {
+    wrapped("Stripes are shown in every slot, the lens rests; some seconds. Keep camera, projector and things still.",
+            colour::dim);
+    ImGui::Checkbox("Also where the room's light says no###registerAnyway", &p.state.registering.anyway);
+    if (button(p, "Scan###registerScan",
+               "Exposure, room light, a marker, all stripes, and a check on stripes shown anew."))
+        ask(p, Step::scan);
+    if (button(p, "Check the light###registerLight",
+               "White, black and a marker: is the room dark enough, and does the camera see this projector?"))
+        ask(p, Step::light);
+    if (r.hasQuality && button(p, r.quality ? "Live picture###registerQuality" : "Quality map###registerQuality",
+                               "What was decoded where, and why not."))
+        ask(p, Step::picture);
+    ImGui::NewLine();
+}
+
+void marksButton(Panel& p, const RegisterView& r, const char* show) {
+    if (button(p, r.showsMarks ? "Hide###registerMarks" : show,
+               r.showsMarks ? "Steady white light." : "On the projector; what plays stops."))
+        ask(p, Step::marks);
+}
+
+void cornersPart(Panel& p, const RegisterView& r) {
+    wrapped("Drag the four handles to where the camera sees the corners of the projector's frame. For flat scenes.",
+            colour::dim);
+    marksButton(p, r, "Show the frame###registerMarks");
+    ImGui::NewLine();
+}
+
+void pairsPart(Panel& p, const RegisterView& r) {
+    wrapped(!r.showsMarks   ? "The projector shows a numbered cross; click where the camera sees it."
+            : r.targetsLeft ? "Click where the camera sees cross " + std::to_string(r.pairs.size() + 1) + "."
+                            : "Every place has its pair.",
+            r.showsMarks ? colour::focus : colour::dim);
+    marksButton(p, r, "Show a cross###registerMarks");
+    if (r.showsMarks && r.targetsLeft &&
+        button(p, "Another place###registerAnother", "The camera does not see this one."))
+        ask(p, Step::another);
+    ImGui::NewLine();
+    for (std::size_t i = 0; i < r.pairs.size(); ++i) {
+        const RegisterPair& pair = r.pairs[i];
+        const bool worst = static_cast<int>(i) == r.worst && pair.fitted;
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::SmallButton("\u00d7###registerRemove")) p.requests.push_back(RemovePair{i});
+        tooltip("Delete this pair.");
+        ImGui::PopID();
+        ImGui::SameLine();
+        text("Pair " + std::to_string(i + 1) + (pair.fitted ? "   " + px(pair.residual_px) : "") +
+                 (!pair.used ? "   left out"
+                  : worst    ? "   the worst"
+                             : ""),
+             !pair.used ? colour::fault
+             : worst    ? colour::warn
+                        : colour::text);
+    }
+}
+
+void boardPart(Panel& p) {
+    wrapped("The projector shows a chessboard and its inverse; the camera finds its corners. For flat scenes.",
+            colour::dim);
+    if (button(p, "Find the board###registerBoard", "A few seconds.")) ask(p, Step::board);
+    ImGui::NewLine();
+}
+
+void ways(Panel& p, const RegisterView& r) {
+    const float width = ImGui::GetContentRegionAvail().x;
+    if (const auto way = choice("###registerWay", {"Scan", "Four corners", "Point pairs", "Chessboard"},
+                                static_cast<int>(r.way), width))
+        p.requests.push_back(ChooseRegisterWay{static_cast<RegisterWay>(*way)});
+}
+
+void column(Panel& p, const RegisterView& r) {
+    text("REGISTERING A CAMERA", colour::dim, Font::small);
+    ImGui::SameLine();
+    text(p.document().rig.name, colour::text, Font::small);
+    cameraRow(p, r);
+    ImGui::Dummy({1, p.px(4)});
+    const bool busy = r.state == Phase::working || r.state == Phase::stopping;
+    if (r.state == Phase::accepted) {
+        text("The rig is registered", colour::good, Font::strong);
+        wrapped("Regions land where they are painted. The light is steady and white: TAKE plays.");
+        if (button(p, "Close###registerClose", "")) ask(p, Step::close);
+        ImGui::NewLine();
+        return;
+    }
+    if (busy) {
+        working(p, r);
+    } else {
+        ways(p, r);
+        ImGui::Dummy({1, p.px(2)});
+        if (r.way == RegisterWay::scan) scanPart(p, r);
+        if (r.way == RegisterWay::corners) cornersPart(p, r);
+        if (r.way == RegisterWay::pairs) pairsPart(p, r);
+        if (r.way == RegisterWay::board) boardPart(p);
+    }
+    if (!r.trouble.empty()) wrapped(r.trouble, colour::fault);
+    if (!busy) found(p, r);
+    lightLine(r);
+    if (r.way == RegisterWay::scan) findings(r);
+    legend(p, r);
+    ImGui::Dummy({1, p.px(6)});
+    if (!busy && button(p, "Close###registerClose", "Steady white light; the rig stays as it is.")) ask(p, Step::close);
+    ImGui::NewLine();
+}
+
+const char* methodName(Registration::Method method) {
+    switch (method) {
+    case Registration::Method::typed:
+        return "typed";
+    case Registration::Method::corners:
+        return "four corners";
+    case Registration::Method::pointPairs:
+        return "point pairs";
+    case Registration::Method::chessboard:
+        return "chessboard";
+    case Registration::Method::scan:
+        break;
+    }
+    return "scan";
+}
+
+}  // namespace
+
+std::string word(RegisterWay way) {
+    switch (way) {
+    case RegisterWay::scan:
+        return "scan";
+    case RegisterWay::corners:
+        return "four corners";
+    case RegisterWay::pairs:
+        return "point pairs";
+    case RegisterWay::board:
+        break;
+    }
+    return "chessboard";
+}
+
+void registerCard(Panel& p) {
+    ImGui::Dummy({1, p.px(4)});
+    heading("REGISTRATION");
+    if (const auto& own = p.document().rig.registration) {
+        derivedRow(p, "By",
+                   std::string(methodName(own->method)) + (own->provenance.empty() ? "" : ", " + own->provenance));
+        if (own->points > 0) derivedRow(p, "Residual", px(own->rms_px) + " rms");
+        if (!own->taken.empty()) derivedRow(p, "Taken", own->taken);
+        if (!own->camera.device.empty()) derivedRow(p, "Camera", own->camera.device);
+    } else {
+        wrapped("None: the picture is fitted into the projector's raster.", colour::warn, Font::small);
+    }
+    const std::string reason = whyNot(Command::registerCamera, p.view, p.state);
+    ImGui::BeginDisabled(!reason.empty());
+    if (ImGui::Button("Register camera\u2026###registerOpen")) p.run(Command::registerCamera);
+    ImGui::EndDisabled();
+    commandTooltip(Command::registerCamera, reason);
+}
+
+void registerPage(Panel& p) {
+    const RegisterView& r = *p.view.registering;
+    p.state.cursor.reset();
+    Rect area = p.at.canvas;
+    if (!p.at.header.empty()) area = {area.x, p.at.header.y, area.w, p.at.header.h + area.h};
+    if (!p.state.panels.hidden && !p.at.sweep.empty()) area.h = p.at.sweep.bottom() - area.y;
+    beginPanel("###register", area, colour::ground, true, false);
+    const float left = std::clamp(static_cast<float>(area.w) * 0.36f, p.px(260), p.px(380));
+    const bool typing = ImGui::GetIO().WantTextInput;
+    ImGui::BeginChild("###registerNow", {left, 0}, false, typing ? 0 : ImGuiWindowFlags_NoNavInputs);
+    column(p, r);
+    ImGui::EndChild();
+    ImGui::SameLine(0, p.px(12));
+    const ImVec2 from = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
+    registerPicture(p, r, {from.x, from.y, size.x, size.y});
+    ImGui::End();
+}
+
+}  // namespace ilf::ui

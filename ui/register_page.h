@@ -1,0 +1,23 @@
+// The wizard that registers a camera with the projector: scan, or corners, point pairs and a chessboard by hand.
+#pragma once
+
+#include "ui/panel.h"
+#include "ui/register_view.h"
+#include "ui/viewport.h"
+
+namespace ilf::ui {
+
+/// In place of the picture and the charts while `View::registering` is set; top bar and Rig stay beside it.
+void registerPage(Panel& p);
+/// Rig's card: what the rig's registration is worth, and the button that leads to the page.
+void registerCard(Panel& p);
+
+/// The camera's picture with what the operator drags and clicks on it.
+void registerPicture(Panel& p, const RegisterView& r, const Rect& area);
+/// How the camera's picture lies in `area`.
+Viewport registerViewport(const RegisterView& r, const Rect& area);
+
+/// "scan", "four corners", ...
+std::string word(RegisterWay way);
+
+}  // namespace ilf::ui
