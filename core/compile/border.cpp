@@ -37,7 +37,7 @@ bool isStep(const Visible& visible, int sheet, Spot inside, Spot outside) {
     if (other < 0 || !visible.light.mayStep(sheet, other)) return false;
     const auto vergence = [&](int which, Spot at) {
         return vergenceAt(visible.document, visible.light.sheets[static_cast<std::size_t>(which)],
-                          visible.cameraFromProjector(Point<ProjectorFrame>{at.x, at.y}));
+                          visible.map.toCamera(Point<ProjectorFrame>{at.x, at.y}));
     };
     return std::abs(vergence(sheet, inside) - vergence(other, outside)) > kDepthStep.si();
 }

@@ -18,7 +18,7 @@ struct BorderPiece {
 struct Visible {
     const Document& document;
     const Lighting& light;
-    const Homography<CameraFrame, ProjectorFrame>& cameraFromProjector;
+    const PixelMap& map;
     const std::vector<TileGrid>& weights;  ///< one per sheet
 };
 

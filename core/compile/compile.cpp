@@ -132,9 +132,10 @@ Box<Tile> mixed(const std::vector<LevelLight>& lit, const std::vector<Box<Tile>>
 /// One compile in the making.
 class Compiler {
 public:
-    Compiler(const Document& document, const Plan& plan, const Compiled* previous)
-        : document_(document), regions_(activeRegions(document)), map_(projectorFromCamera(document)),
-          cameraFromProjector_(map_.inverted()), shown_(shownLights(plan)), previous_(previous) {
+    /// `known`: a sampler of an earlier compile, or none; taken where it fits.
+    Compiler(const Document& document, const Plan& plan, const Compiled* previous, const Box<CoverageSampler>& known)
+        : document_(document), regions_(activeRegions(document)), map_(pixelMap(document)), shown_(shownLights(plan)),
+          previous_(previous) {
         if (previous_ != nullptr) {
             parts_ = *previous_->parts;
             for (const Region* region : activeRegions(previous_->document))
@@ -143,7 +144,8 @@ public:
             return;
         }
         const Size size = document.rig.projector;
-        parts_.sampler = Box<CoverageSampler>(CoverageSampler(document.scene.size(), size, map_));
+        const bool fits = known && known->isFor(document.scene.size(), size, map_);
+        parts_.sampler = fits ? known : Box<CoverageSampler>(CoverageSampler(document.scene.size(), size, map_));
         parts_.light = Box<Lighting>(lighting(document, plan));
         parts_.coverage.assign(regions_.size(), TileGrid(size));
         parts_.visible.assign(light().sheets.size(), TileGrid(size));
@@ -277,7 +279,7 @@ private:
 
     Rects lightLayers(const std::vector<TilePart>& tiles) {
         Rects changed;
-        const Visible visible{document_, light(), cameraFromProjector_, parts_.visible};
+        const Visible visible{document_, light(), map_, parts_.visible};
         computed<LayerTiles>(
             tiles, [&](const TilePart& tile) { return layerTiles(visible, tile, parts_.layers); },
             [&](const TilePart& tile, const LayerTiles& made) {
@@ -301,6 +303,7 @@ private:
                 auto made = levelTiles(light(), parts_.layers, tile, images_);
                 for (std::size_t i = made.size(); i < shown_.size(); ++i)
                     made.push_back(mixed(shown_[i], made));
+                darkenUnseen(tile.column, tile.row, made);
                 return made;
             },
             [&](const TilePart& tile, const std::vector<Box<Tile>>& made) {
@@ -308,6 +311,34 @@ private:
                     put(images_[i], tile.column, tile.row, made[i]);
             });
         computed_ = static_cast<int>(tiles.size() * images_.size());
+    }
+
+    /// Light that the camera does not see falls on nobody knows what: none in any slot.
+    void darkenUnseen(int column, int row, std::vector<Box<Tile>>& made) const {
+        if (!map_.dense()) return;
+        const Image<std::uint8_t>& seen = map_.dense()->seen;
+        const PixelRect<ProjectorFrame> at = tileRect(column, row).clipped(seen.size());
+        Tile mask;
+        std::uint8_t all = 255, any = 0;
+        for (int y = at.y0; y < at.y1; ++y) {
+            for (int x = at.x0; x < at.x1; ++x) {
+                const auto v = static_cast<std::uint8_t>(seen.at(x, y) != 0 ? 255 : 0);
+                mask.at(x % kTile, y % kTile) = v;
+                all = std::min(all, v), any = std::max(any, v);
+            }
+        }
+        if (all == 255) return;
+        for (Box<Tile>& box : made) {
+            if (box.same(uniformTile(0))) continue;
+            if (any == 0) {
+                box = uniformTile(0);
+                continue;
+            }
+            Tile tile = *box;
+            for (std::size_t i = 0; i < tile.v.size(); ++i)
+                tile.v[i] &= mask.v[i];
+            box = boxed(tile);
+        }
     }
 
     int seamTiles() const {
@@ -324,8 +355,7 @@ private:
 
     const Document& document_;
     std::vector<const Region*> regions_, regionsBefore_;
-    Homography<ProjectorFrame, CameraFrame> map_;
-    Homography<CameraFrame, ProjectorFrame> cameraFromProjector_;
+    PixelMap map_;
     std::vector<std::vector<LevelLight>> shown_;  ///< of each image
     const Compiled* previous_;
     CompileParts parts_;
@@ -348,9 +378,22 @@ Result<void> compilable(const Document& document) {
     const Size projector = document.rig.projector;
     if (projector.width <= 0 || projector.height <= 0)
         return fail(Fault::outOfRange, "The rig's projector has no pixels: type its width and height.");
-    const double det = projectorFromCamera(document).determinant();
+    const PixelMap map = pixelMap(document);
+    const double det = map.nearest().determinant();
     if (!std::isfinite(det) || det == 0.0)
         return fail(Fault::outOfRange, "The rig's registration maps the picture onto a line: register it again.");
+    const auto pixels = [](Size size) { return std::to_string(size.width) + " x " + std::to_string(size.height); };
+    if (map.dense() && map.dense()->projector() != projector) {
+        return fail(Fault::outOfRange, "The rig's registration was scanned on a raster of " +
+                                           pixels(map.dense()->projector()) + " pixels, and the projector has " +
+                                           pixels(projector) + ": scan again.");
+    }
+    if (map.dense() && map.dense()->camera() != document.scene.size()) {
+        return fail(Fault::outOfRange, "The rig's registration was scanned for pictures of " +
+                                           pixels(map.dense()->camera()) + " pixels, and the scene's picture has " +
+                                           pixels(document.scene.size()) +
+                                           ": grab the picture with the scanned camera, or scan again.");
+    }
     if (!isFinite(document.seam.feather) || document.seam.feather < 0.0_m)
         return fail(Fault::outOfRange, "The feather must be 0 mm or more.");
     std::vector<const Region*> surfaces = activeRegions(document);
@@ -380,7 +423,9 @@ Result<Compiled> compile(const Document& document, const Plan& plan, const Compi
         compiled.counters.unchanged = compiled.counters.tiles;
         compiled.program.imageOfSlot.assign(static_cast<std::size_t>(slotsPerSweep(document.rig)), 0);
     } else {
-        Compiler compiler(document, plan, shared ? previous : nullptr);
+        const bool knows = previous != nullptr && previous->parts != nullptr;
+        Compiler compiler(document, plan, shared ? previous : nullptr,
+                          knows ? previous->parts->sampler : Box<CoverageSampler>());
         compiler.run();
         compiled = std::move(compiler).result(plan);
         const std::vector<std::vector<LevelLight>> shown = shownLights(plan);

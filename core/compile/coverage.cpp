@@ -19,7 +19,8 @@ constexpr int kMaxSamples = 8;
 
 CoverageSampler::CoverageSampler(Size picture, Size projector,
                                  const Homography<ProjectorFrame, CameraFrame>& projectorFromCamera)
-    : picture_(picture), cameraFromProjector_(projectorFromCamera.inverted()) {
+    : picture_(picture), projector_(projector), map_(projectorFromCamera),
+      cameraFromProjector_(projectorFromCamera.inverted()) {
     auto& m = cameraFromProjector_.m;
     for (double& v : m)
         v /= m[8] != 0.0 && &v != &m[8] ? m[8] : 1.0;
@@ -30,6 +31,19 @@ CoverageSampler::CoverageSampler(Size picture, Size projector,
     const auto whole = [](int pixels) { return (pixels + kTile - 1) / kTile * kTile; };
     across_ = taps(whole(projector.width), m[0], m[2]);
     down_ = taps(whole(projector.height), m[4], m[5]);
+}
+
+CoverageSampler::CoverageSampler(Size picture, Size projector, const PixelMap& map)
+    : CoverageSampler(picture, projector, map.nearest()) {
+    if (!map.dense()) return;
+    map_ = map;
+    dense_ = std::make_shared<const DenseCoverage>(map.dense());
+    axisAligned_ = identity_ = false;
+}
+
+bool CoverageSampler::isFor(Size picture, Size projector, const PixelMap& map) const {
+    const bool sameMap = map.dense() ? map.dense().same(map_.dense()) : map == map_;
+    return picture == picture_ && projector == projector_ && sameMap;
 }
 
 CoverageSampler::Taps CoverageSampler::taps(int pixels, double scale, double offset) {
@@ -56,6 +70,7 @@ CoverageSampler::Taps CoverageSampler::taps(int pixels, double scale, double off
 }
 
 PixelRect<CameraFrame> CoverageSampler::source(int column, int row) const {
+    if (dense_) return dense_->source(column, row);
     if (axisAligned_) {
         const auto span = [](const Taps& taps, int tile) {
             const auto from = static_cast<std::size_t>(tile) * kTile;
@@ -88,6 +103,7 @@ Box<Tile> CoverageSampler::tile(const Mask& mask, int column, int row) const {
     if (same && (*same == 0 || inside == needed)) return uniformTile(*same);
     const PixelRect<CameraFrame> at = axisAligned_ ? needed : inside.grown(2);
     const std::vector<std::uint8_t> pixels = gatheredOrZero(mask, at);
+    if (dense_) return boxed(dense_->tile(pixels, at, column, row));
     return boxed(axisAligned_ ? separable(pixels, at, column, row) : supersampled(pixels, at, column, row));
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/base/geometry.h"
 #include "core/base/tile_grid.h"
+#include "core/compile/dense_coverage.h"
 
 namespace ilf {
 
@@ -15,6 +17,10 @@ namespace ilf {
 class CoverageSampler {
 public:
     CoverageSampler(Size picture, Size projector, const Homography<ProjectorFrame, CameraFrame>& projectorFromCamera);
+    /// Precondition: a dense map has the sizes of picture and raster.
+    CoverageSampler(Size picture, Size projector, const PixelMap& map);
+    /// Whether it was made from this very map, for these sizes.
+    bool isFor(Size picture, Size projector, const PixelMap& map) const;
 
     /// One projector tile of `mask`. The result depends on nothing but the mask's values near it.
     Box<Tile> tile(const Mask& mask, int column, int row) const;
@@ -34,7 +40,9 @@ private:
     Tile separable(const std::vector<std::uint8_t>& pixels, PixelRect<CameraFrame> at, int column, int row) const;
     Tile supersampled(const std::vector<std::uint8_t>& pixels, PixelRect<CameraFrame> at, int column, int row) const;
 
-    Size picture_;
+    Size picture_, projector_;
+    PixelMap map_;
+    std::shared_ptr<const DenseCoverage> dense_;  ///< or none: the map is a homography
     Homography<CameraFrame, ProjectorFrame> cameraFromProjector_;
     bool axisAligned_ = false;  ///< scale and shift only: rows and columns are filtered one after the other
     bool identity_ = false;     ///< same pixels: tiles are shared instead of sampled

@@ -44,15 +44,38 @@ Sheet sheetFor(const Region& region, const Plan& plan, int base) {
 
 /// The maps between picture and raster, and how large a picture pixel lands on the raster.
 struct RasterMaps {
-    Homography<ProjectorFrame, CameraFrame> projectorFromCamera;
-    Homography<CameraFrame, ProjectorFrame> cameraFromProjector;
+    PixelMap map;
 
     /// Projector pixels per camera pixel around a point: square root of how areas grow.
     double scaleAt(Point<CameraFrame> p) const {
-        const Point<ProjectorFrame> o = projectorFromCamera(p);
-        const Point<ProjectorFrame> x = projectorFromCamera(Point<CameraFrame>{p.x + 1, p.y});
-        const Point<ProjectorFrame> y = projectorFromCamera(Point<CameraFrame>{p.x, p.y + 1});
-        return std::sqrt(std::abs((x.x - o.x) * (y.y - o.y) - (x.y - o.y) * (y.x - o.x)));
+        const double nominal = scaleOver(p, 1.0, [&](Point<CameraFrame> at) { return map.nearest()(at); });
+        if (map.plane() != nullptr) return nominal;
+        // Over as many pixels as a scan's jitter needs; beside a depth step the plane knows better.
+        constexpr double kBase = 16.0;
+        const Point<CameraFrame> corner{p.x - 0.5 * kBase, p.y - 0.5 * kBase};
+        const double scanned = scaleOver(corner, kBase, [&](Point<CameraFrame> at) { return map.toProjector(at); });
+        return scanned > 0.5 * nominal && scanned < 2.0 * nominal ? scanned : nominal;
+    }
+    /// From the raster's point `from`, which the camera sees at `at`, to where it would see `to`. Where a scanned map
+    /// is torn there (a depth step, a guess), the homography that fits it best tells.
+    Shift shift(Point<ProjectorFrame> from, Point<CameraFrame> at, Point<CameraFrame> to) const {
+        const auto between = [](Point<ProjectorFrame> a, Point<ProjectorFrame> b) {
+            return Shift{static_cast<float>(b.x - a.x), static_cast<float>(b.y - a.y)};
+        };
+        if (map.plane() != nullptr) return between(from, map.toProjector(to));
+        const Shift plane = between(map.nearest()(at), map.nearest()(to));
+        const Shift scanned = between(map.toProjector(at), map.toProjector(to));
+        const float off = std::hypot(scanned.x - plane.x, scanned.y - plane.y);
+        return off <= 1.0F + 0.5F * std::hypot(plane.x, plane.y) ? scanned : plane;
+    }
+
+private:
+    template <class Map>
+    static double scaleOver(Point<CameraFrame> p, double base, const Map& to) {
+        const Point<ProjectorFrame> o = to(p);
+        const Point<ProjectorFrame> x = to(Point<CameraFrame>{p.x + base, p.y});
+        const Point<ProjectorFrame> y = to(Point<CameraFrame>{p.x, p.y + base});
+        return std::sqrt(std::abs((x.x - o.x) * (y.y - o.y) - (x.y - o.y) * (y.x - o.x))) / base;
     }
 };
 
@@ -63,12 +86,8 @@ struct Sight {
     EyeOptics eye;
     Dioptre rest, lit;
 
-    Shift shiftTo(Point<ProjectorFrame> from, Point<CameraFrame> camera) const {
-        const Point<ProjectorFrame> to = registration.projectorFromCamera(camera);
-        return {static_cast<float>(to.x - from.x), static_cast<float>(to.y - from.y)};
-    }
     LayerNode node(const Sheet& sheet, bool blurred, Point<ProjectorFrame> at) const {
-        const Point<CameraFrame> p = registration.cameraFromProjector(at);
+        const Point<CameraFrame> p = registration.map.toCamera(at);
         const Metre d = 1.0 / Dioptre::fromSi(vergenceAt(document, sheet, p));
         const double s = magnification(eye, d, rest, lit);
         const Point<CameraFrame> left = opticalCentre(document, Eye::left, d);
@@ -77,9 +96,9 @@ struct Sight {
         const auto scaled = [&](double k) { return Point<CameraFrame>{c.x + k * (p.x - c.x), c.y + k * (p.y - c.y)}; };
         const double perMetre = pixelsPerMetre(document, d) * registration.scaleAt(p);
         LayerNode node;
-        node.toPainted = shiftTo(at, scaled(2.0 * s / (1.0 + s)));
-        node.toSeen = shiftTo(at, scaled(s));
-        node.toLit = shiftTo(at, scaled(1.0 / s));
+        node.toPainted = registration.shift(at, p, scaled(2.0 * s / (1.0 + s)));
+        node.toSeen = registration.shift(at, p, scaled(s));
+        node.toLit = registration.shift(at, p, scaled(1.0 / s));
         node.feather = static_cast<float>(document.seam.feather.si() * perMetre);
         if (blurred) {
             node.blurRadius = static_cast<float>(blurRadiusOnSurface(eye, d, rest, lit).si() * perMetre / s);
@@ -103,7 +122,7 @@ std::vector<bool> possibleSteps(const Document& document, const RasterMaps& regi
         for (int row = 0; row <= light.rows && !range.any; ++row) {
             for (int column = 0; column <= light.columns; ++column) {
                 const Point<ProjectorFrame> at{static_cast<double>(column * kTile), static_cast<double>(row * kTile)};
-                const double v = vergenceAt(document, sheet, registration.cameraFromProjector(at));
+                const double v = vergenceAt(document, sheet, registration.map.toCamera(at));
                 range.low = std::min(range.low, v);
                 range.high = std::max(range.high, v);
             }
@@ -189,8 +208,7 @@ Lighting lighting(const Document& document, const Plan& plan) {
         if (same == light.sheets.end()) light.sheets.push_back(std::move(sheet));
     }
 
-    const Homography<ProjectorFrame, CameraFrame> map = projectorFromCamera(document);
-    const RasterMaps registration{map, map.inverted()};
+    const RasterMaps registration{pixelMap(document)};
     const EyeOptics eye = eyeOptics(document.wearer);
     const Dioptre rest = plan.levels[static_cast<std::size_t>(light.base)].power;
     for (int sheet = 0; sheet < static_cast<int>(light.sheets.size()); ++sheet) {

@@ -33,7 +33,7 @@ double blurRadiusOnRaster(const Compiled& compiled) {
     const Document& d = compiled.document;
     return blurRadiusOnSurface(eyeOptics(d.wearer), 0.5_m, compiled.plan.focusPower, compiled.plan.levels.back().power)
                .si() *
-           pixelsPerMetre(d, 0.5_m) * projectorFromCamera(d).m[0];
+           pixelsPerMetre(d, 0.5_m) * pixelMap(d).nearest().m[0];
 }
 
 /// Times of single runs in microseconds.

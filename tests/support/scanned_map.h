@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
-#include "core/registration/pixel_map.h"
+#include "core/registration/registration.h"
 
 namespace ilf {
 
@@ -39,6 +40,27 @@ inline DenseMap sampledMap(const Homography<ProjectorFrame, CameraFrame>& plane,
     }
     return {Image<float>(camera, 2, std::move(forth)), Image<std::uint8_t>(camera, 1, std::move(sure)),
             Image<float>(projector, 2, std::move(home)), Image<std::uint8_t>(projector, 1, std::move(seen)), plane};
+}
+
+inline Box<Registration> registered(const Box<DenseMap>& map) {
+    Registration registration;
+    registration.map = PixelMap(map);
+    registration.method = Registration::Method::scan;
+    registration.projector = map->projector();
+    registration.camera.picture = map->camera();
+    registration.provenance = "simulated";
+    return Box<Registration>(std::move(registration));
+}
+
+/// The same map where `unseen` pixels of the raster are not seen.
+inline DenseMap withoutSeeing(DenseMap map, PixelRect<ProjectorFrame> unseen) {
+    std::vector<std::uint8_t> seen(map.seen.pixels().begin(), map.seen.pixels().end());
+    for (int y = unseen.y0; y < unseen.y1; ++y)
+        for (int x = unseen.x0; x < unseen.x1; ++x)
+            seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.projector().width) +
+                 static_cast<std::size_t>(x)] = 0;
+    map.seen = Image<std::uint8_t>(map.projector(), 1, std::move(seen));
+    return map;
 }
 
 }  // namespace ilf

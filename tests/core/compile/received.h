@@ -51,7 +51,7 @@ inline double received(const Compiled& compiled, Metre distance, Point<Projector
     const Document& document = compiled.document;
     const Plan& plan = compiled.plan;
     const EyeOptics eye = eyeOptics(document.wearer);
-    const auto map = projectorFromCamera(document);
+    const auto map = pixelMap(document).nearest();
     const Point<CameraFrame> left = opticalCentre(document, Eye::left, distance);
     const Point<CameraFrame> right = opticalCentre(document, Eye::right, distance);
     const Point<ProjectorFrame> c = map(Point<CameraFrame>{0.5 * (left.x + right.x), 0.5 * (left.y + right.y)});

@@ -2,6 +2,7 @@
 #include "core/document/edit.h"
 #include "tests/core/compile/received.h"
 #include "tests/support/law.h"
+#include "tests/support/scanned_map.h"
 
 namespace {
 
@@ -51,8 +52,11 @@ TEST_CASE("compile: after any edits, an incremental compile is bit for bit the c
     const auto blendings = {Blending::closedForm, Blending::linearPerceived, Blending::linearObject, Blending::none};
     law("incremental equals full", [&] {
         const Homography<ProjectorFrame, CameraFrame> keystone{{0.9, 0.05, 8, -0.03, 0.95, 12, 1e-4, 5e-5, 1}};
-        const bool plain = *rc::gen::element(true, false);
-        Document document = plain ? desk({512, 350}, std::nullopt) : desk({600, 400}, keystone);
+        enum Map { fitted, keystoned, scanned };
+        const Map map = *rc::gen::element(fitted, keystoned, scanned);
+        Document document = map == fitted ? desk({512, 350}, std::nullopt) : desk({600, 400}, keystone);
+        static const Box<DenseMap> bent(sampledMap(keystone, kPicture, {600, 400}, 1.5));
+        if (map == scanned) document.rig.registration = registered(bent);
         document.seam.blending = *rc::gen::elementOf(std::vector<Blending>(blendings));
         Compiled now = compiledFrom(document);
         const int edits = *rc::gen::inRange(1, 5);
