@@ -36,7 +36,7 @@ struct Scan {
 /// Why a camera pixel has no place on the raster, or that it has one.
 enum class PixelState : std::uint8_t {
     decoded,
-    dark,          ///< white is hardly brighter than black there: shadow, dark surface, or outside the light
+    dark,          ///< hardly lit: shadow (that other surfaces may light a little), dark surface, or outside the light
     saturated,     ///< white or black is at the end of the sensor's range
     ambiguous,     ///< a bit and its inverse differ too little: an edge, inter-reflection, noise
     inconsistent,  ///< its code lies outside the raster, or away from all neighbours'

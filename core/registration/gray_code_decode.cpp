@@ -1,6 +1,7 @@
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstddef>
+#include <cstdlib>
 #include <limits>
 #include <string>
 #include <utility>
@@ -124,6 +125,19 @@ struct Judge {
     }
 };
 
+/// Whether the projector itself lights a pixel: then it follows some of the finer stripes. Where light comes from other
+/// surfaces only, from everywhere at once, wide stripes show but fine ones cancel out (Nayar et al., "Fast separation
+/// of direct and global components", SIGGRAPH 2006).
+bool directlyLit(const std::vector<BitRows>& columns, const std::vector<BitRows>& rows, std::size_t x, double least) {
+    constexpr std::size_t kFine = 4;  // bits: stripes of 2 to 16 steps
+    for (const auto* bits : {&columns, &rows}) {
+        for (std::size_t bit = bits->size() - std::min(kFine, bits->size()); bit < bits->size(); ++bit) {
+            if (std::abs((*bits)[bit].picture[x] - (*bits)[bit].inverse[x]) >= least) return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 Result<DecodedScan> decodedScan(const Scan& scan, const DecodeOptions& options) {
@@ -148,8 +162,10 @@ Result<DecodedScan> decodedScan(const Scan& scan, const DecodeOptions& options) 
         const std::uint8_t *w = white.row(y), *b = black.row(y);
         for (std::size_t x = 0; x < columns; ++x)
             contrast[x] = static_cast<std::int16_t>(std::max(0, w[x] - b[x]));
-        readAxis(rowsOf(pictures->columns, y, bitsX), contrast.data(), width, alongX);
-        readAxis(rowsOf(pictures->rows, y, bitsY), contrast.data(), width, alongY);
+        const std::vector<BitRows> columnBits = rowsOf(pictures->columns, y, bitsX);
+        const std::vector<BitRows> rowBits = rowsOf(pictures->rows, y, bitsY);
+        readAxis(columnBits, contrast.data(), width, alongX);
+        readAxis(rowBits, contrast.data(), width, alongY);
         for (std::size_t x = 0; x < columns; ++x) {
             const std::size_t n = static_cast<std::size_t>(y) * columns + x;
             const int c = contrast[x];
@@ -162,7 +178,9 @@ Result<DecodedScan> decodedScan(const Scan& scan, const DecodeOptions& options) 
                 state = PixelState::dark;
             } else if (!judge.clear(c, alongX.weakest[x], alongX.second[x], alongX.even[x]) ||
                        !judge.clear(c, alongY.weakest[x], alongY.second[x], alongY.even[x])) {
-                state = PixelState::ambiguous;
+                const bool shadow =
+                    c < 4.0 * options.leastContrast && !directlyLit(columnBits, rowBits, x, options.leastContrast);
+                state = shadow ? PixelState::dark : PixelState::ambiguous;
             } else if (atX >= rasterX || atY >= rasterY) {
                 state = PixelState::inconsistent;
             }

@@ -61,7 +61,11 @@ ScanDiagnosis scanDiagnosis(const Scan& scan, const DecodedScan& decoded) {
 
     // No light at all explains everything else.
     if (light.following < 0.005) {
-        if (light.brightest < 20) {
+        if (light.blackSaturated > 0.5) {
+            add(ambientLight, failure,
+                "The camera's picture is at the end of its range even while the projector is black: dim the room, "
+                "shorten the exposure, or close the aperture.");
+        } else if (light.brightest < 20) {
             add(tooDark, failure,
                 "The camera sees hardly any light at all (at most " + std::to_string(light.brightest) +
                     " of 255): open the aperture, expose longer, and see that the projector is on.");
@@ -127,9 +131,16 @@ ScanDiagnosis scanDiagnosis(const Scan& scan, const DecodedScan& decoded) {
             "White is only " + asText("%.0f", light.contrast) +
                 " of 255 above black for the middle lit pixel: expose longer, open the aperture, or dim the room.");
     }
+    if (light.lit + light.saturated < 0.05 * pixels) {
+        add(fewPixels, failure,
+            "The projector lights only " + percent((light.lit + light.saturated) / pixels) +
+                " of the picture: move the camera or the projector, or zoom, until its light fills most of it.");
+    }
     const Mixed mixed = mixedLight(scan, decoded);
-    const bool still = std::ranges::none_of(out.findings, [](const ScanFinding& f) { return f.fault == moved; });
-    if (mixed.share > 0.1 && still) {
+    // What moved, or is seen too small, mixes light as well.
+    const bool otherwise = std::ranges::any_of(
+        out.findings, [](const ScanFinding& f) { return f.fault == moved || f.fault == fewPixels; });
+    if (mixed.share > 0.1 && !otherwise) {
         add(glossy, mixed.share > 0.5 ? failure : warning,
             percent(mixed.share) +
                 " of the well lit pixels see two parts of the raster at once (orange on the quality map): gloss, or "
