@@ -200,13 +200,23 @@ Result<DecodedScan> decodedScan(const Scan& scan, const DecodeOptions& options) 
     out.projector = scan.projector;
     std::vector<std::uint8_t> confidence(pixels, 0);
     constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
-    for (std::size_t n = 0; n < pixels; ++n) {
-        ++out.count[places.state[n]];
-        if (places.state[n] == value(PixelState::decoded)) {
-            confidence[n] = static_cast<std::uint8_t>(std::max(1, clarity[n] * agreement[n] / 255));
-        } else {
-            places.at[2 * n] = places.at[2 * n + 1] = kNowhere;
+    std::vector<std::array<int, 5>> counts(static_cast<std::size_t>(height));
+    parallelFor(height, [&](int y) {
+        std::array<int, 5> count{};
+        for (std::size_t n = static_cast<std::size_t>(y) * columns; n < static_cast<std::size_t>(y + 1) * columns;
+             ++n) {
+            ++count[places.state[n]];
+            if (places.state[n] == value(PixelState::decoded)) {
+                confidence[n] = static_cast<std::uint8_t>(std::max(1, clarity[n] * agreement[n] / 255));
+            } else {
+                places.at[2 * n] = places.at[2 * n + 1] = kNowhere;
+            }
         }
+        counts[static_cast<std::size_t>(y)] = count;
+    });
+    for (const auto& count : counts) {
+        for (std::size_t state = 0; state < count.size(); ++state)
+            out.count[state] += count[state];
     }
     out.projectorOfCamera = {white.size(), 2, std::move(places.at)};
     out.confidence = {white.size(), 1, std::move(confidence)};

@@ -114,8 +114,11 @@ std::vector<std::uint8_t> steadied(Places& places, const Trend& trend, std::arra
         }
     });
 
-    const auto gateX = static_cast<std::int16_t>(within[0] * double(kUnit));
-    const auto gateY = static_cast<std::int16_t>(within[1] * double(kUnit));
+    // 25 differences of at most 75 raster pixels still add up in 16 bits.
+    const auto gate = [&](double distance) {
+        return static_cast<std::int16_t>(std::clamp(distance * double(kUnit), 1.0, 1200.0));
+    };
+    const std::int16_t gateX = gate(within[0]), gateY = gate(within[1]);
     std::vector<std::uint8_t> agreement(columns * static_cast<std::size_t>(height), 0);
     parallelFor(height, [&](int j) {
         std::vector<std::int16_t> agree(columns, 0), known(columns, 0), sumX(columns, 0), sumY(columns, 0);
