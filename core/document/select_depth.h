@@ -20,7 +20,8 @@ struct SurfaceSelection {
 /// so at depth steps and at creases alike. What is too small for the long baseline is judged by the short one alone.
 /// From there the surface is continued, along its own slope, to the last pixel that still lies on it. Holes of at most
 /// 400 pixels inside it are filled. Edge smoothed by one pixel. Refused: no depth map of the picture's size, a click
-/// outside it, and a click where no surface was measured close by.
+/// outside it, and a click where no surface was measured close by. A limit: parts that hang together only by a neck of
+/// less than some 30 px beside an edge are surfaces of their own, one click each.
 Result<Mask> surfaceAt(const DepthMap& depth, const Picture& picture, Point<CameraFrame> seed,
                        const SurfaceSelection& how = {});
 
