@@ -17,6 +17,8 @@ constexpr Second kShortest = Second::fromSi(1e-4), kLongest = Second::fromSi(1.0
 constexpr float kLeak = 0.0015F;
 /// Its lens softens a raster pixel's edges: share of each neighbour, a standard deviation of 0.45 pixels.
 constexpr float kSoft = 0.1F;
+/// More, and less, light than any exposure makes up for.
+constexpr float kWideOpen = 150.0F, kNearlyClosed = 2e-4F;
 /// What an automatic exposure aims at, as a mean code.
 constexpr double kAim = 110.0;
 
@@ -145,10 +147,15 @@ Result<std::optional<Frame>> EmulatedCamera::read() {
     if (faulty && wish_.wrongScreen && shown.there) putDesktop(shown.light, shown.raster);
     if (shown.there) throughLens(shown.light);
     transport_->shine(shown.light, wish_.ambientLux, lux_);
+    if (faulty && (wish_.saturated || wish_.dark)) {
+        const float aperture = wish_.saturated ? kWideOpen : kNearlyClosed;
+        for (float& lux : lux_)
+            lux *= aperture;
+    }
     scene::SensorSettings settings = sensor_;
     settings.seed = static_cast<std::uint64_t>(wish_.seed) * 1000003U + number_;
     settings.noisy = !wish_.quiet;
-    settings.gain = autoGain_ * (faulty && wish_.saturated ? 60.0 : faulty && wish_.dark ? 0.004 : 1.0);
+    settings.gain = autoGain_;
     Image<std::uint8_t> picture = exposed(*transport_, lux_, settings);
     adapt(picture);
     if (faulty && wish_.frozen && !late_.empty()) picture = late_.back();

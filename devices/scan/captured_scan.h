@@ -43,9 +43,10 @@ struct CapturedScan {
 
 /// Takes pictures of what a PatternShow shows, with one camera.
 ///
-/// A picture counts when its frame came after first light, the exposure and a further frame, after as many frames as
-/// this camera was found to be late by, differs from the picture before (a repeated frame is no picture), and, with its
-/// inverse, is a pair against white and black. Where a pair is none it is taken again, one frame later.
+/// A picture counts when its frame came after first light and the exposure, after as many frames as this camera was
+/// found to be late by, is like the frame before it but for noise (what still changes is not one pattern alone), is not
+/// byte for byte the one before (a repeated frame is no picture), and, with its inverse, is a pair against white and
+/// black. Where a pair is none it is taken again, one frame later.
 class PatternCamera {
 public:
     /// `stop` ends every wait. Both must outlive it.
@@ -73,7 +74,9 @@ private:
     Result<void> findExposure();
     Result<void> findLateness();
     Result<void> seesMarker();
+    Result<void> somethingFollows();
     Error nothingFollows() const;
+    double changed(const Image<std::uint8_t>& picture) const;
 
     CameraSource& camera_;
     PatternShow& show_;
@@ -81,7 +84,9 @@ private:
     ScanWatch watch_;
     std::stop_token stop_;
     Image<std::uint8_t> white_, black_, newest_, last_;
-    Second frameTime_;  ///< when newest_ came
+    Second frameTime_;       ///< when newest_ came
+    double noise_ = 0.0;     ///< mean difference of two frames of the same, codes; 0: not known yet
+    double restless_ = 0.0;  ///< changed() of two frames of the same
     CapturedScan facts_;
 };
 

@@ -15,11 +15,21 @@ constexpr Pattern kWhite{white, 0, false}, kBlack{black, 0, false};
 constexpr Second kSilence = Second::fromSi(3.0);
 /// What a camera's own exposure may be where it cannot be set.
 constexpr Second kUnknownExposure = Second::fromSi(1.0 / 15.0);
-/// Two pictures of the same differ by noise alone.
-constexpr double kNoise = 2.5;
+/// Two frames of the same differ by noise alone: so much more than two others did, codes.
+constexpr double kNoiseRoom = 0.5, kNoiseFactor = 1.25;
+/// Frames until one is like the one before it; a view that flickers never is.
+constexpr int kSettling = 10;
+/// A share of what is lit that looks different, beyond noise: somebody moved something.
+constexpr double kMoved = 0.005;
+constexpr const char* kPreviousFrames = "The camera gives previous frames again: what is shown reaches its pictures "
+                                        "late, and later than before. Use a camera without a queue, or a machine "
+                                        "that has less to do.";
+/// Further frames in which a very late camera shows that it is one.
+constexpr int kVeryLate = 20;
 /// Room enough below the sensor's end, light enough above its noise: mean of the brightest hundredth.
 constexpr int kBrightest = 250, kBrightEnough = 90;
 constexpr int kMostSweeps = 16;
+constexpr int kNothing = 3;
 /// Frames in which an automatic exposure finds itself.
 constexpr int kAdapting = 10;
 
@@ -91,19 +101,29 @@ Result<Image<std::uint8_t>> PatternCamera::taken(const Pattern& pattern, int lat
     // A frame whose exposure began before first light shows something of what was there before.
     const Second exposure = facts_.exposure > 0.0_s ? facts_.exposure : kUnknownExposure;
     const Second fresh = *lit + exposure + show_.sweep();
-    int passed = 0;
+    int passed = 0, unsettled = 0;
+    Image<std::uint8_t> before;
     while (true) {
         const auto picture = frame();
         if (!picture) return picture;
-        const bool repeated = !last_.empty() && *picture == last_;
-        if (frameTime_ < fresh || passed++ < late || repeated) {
-            if (repeated && frameTime_ - fresh > kSilence) {
-                return fail(Fault::device, camera_.name() + " is frozen: it gives the same picture again and again, "
-                                                            "whatever is shown. Plug it in again, then scan again.");
-            }
-            continue;
+        // Where there is no light at all there is nothing that could differ.
+        const bool repeated = (*picture == last_ || *picture == before) && brightest(*picture) > kNothing;
+        if (repeated && frameTime_ - fresh > kSilence) {
+            return fail(Fault::device, camera_.name() +
+                                           " is frozen: it gives the same picture again and again, whatever "
+                                           "is shown. Plug it in again, then scan again.");
         }
-        return last_ = *picture;
+        if (frameTime_ < fresh || repeated || passed++ < late) continue;
+        const bool settled =
+            noise_ == 0.0 || (!before.empty() && meanDifference(*picture, before) < kNoiseFactor * noise_ + kNoiseRoom);
+        if (settled) return last_ = *picture;
+        before = *picture;
+        if (++unsettled > kSettling) {
+            return fail(Fault::device,
+                        "What the camera sees does not come to rest while one pattern is shown: something "
+                        "moves in its view, or other light flickers. Keep the view still, switch the "
+                        "other light off, and scan again.");
+        }
     }
 }
 
@@ -112,10 +132,6 @@ Result<void> PatternCamera::begin() {
     if (const auto set = findExposure(); !set) return set;
     tell(ScanProgress::Step::light, 1, 4, "Looking at the room's light");
     if (const auto found = findLateness(); !found) return found;
-    const auto ambient = ambientCheck(white_, black_);
-    if (!ambient) return tl::unexpected(ambient.error());
-    facts_.ambient = *ambient;
-    if (!ambient->go && !wish_.anyway) return fail(Fault::device, ambient->what);
     tell(ScanProgress::Step::marker, 3, 4, "Looking for a marker, so that no other screen is scanned");
     return seesMarker();
 }
@@ -170,6 +186,9 @@ Result<void> PatternCamera::findLateness() {
     auto seen = taken(kWhite, wish_.mostLate);
     if (!seen) return tl::unexpected(seen.error());
     white_ = *seen;
+    seen = frame();
+    if (!seen) return tl::unexpected(seen.error());
+    const double whiteNoise = meanDifference(white_, *seen);
     // From first light on, one frame after the other, until they have long shown the same.
     std::vector<Image<std::uint8_t>> frames;
     seen = taken(kBlack, 0);
@@ -179,10 +198,16 @@ Result<void> PatternCamera::findLateness() {
         seen = frame();
     }
     black_ = last_ = frames.back();
-    if (shareLit(white_, black_) < 0.01) return tl::unexpected(nothingFollows());
+    if (const auto follows = somethingFollows(); !follows) return follows;
+    const auto ambient = ambientCheck(white_, black_);
+    if (!ambient) return tl::unexpected(ambient.error());
+    facts_.ambient = *ambient;
+    if (!ambient->go && !wish_.anyway) return fail(Fault::device, ambient->what);
+    noise_ = std::max(0.01, std::max(whiteNoise, meanDifference(frames[frames.size() - 2], black_)));
     facts_.late = 0;
     for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
-        if (meanDifference(frames[i], black_) > kNoise) facts_.late = static_cast<int>(i) + 1;
+        if (meanDifference(frames[i], black_) > kNoiseFactor * noise_ + kNoiseRoom)
+            facts_.late = static_cast<int>(i) + 1;
     }
     if (facts_.late > wish_.mostLate) {
         return fail(Fault::device,
@@ -190,7 +215,37 @@ Result<void> PatternCamera::findLateness() {
                         " frames after a pattern does: it sees previous frames, or something in its "
                         "view moves or flickers. Use a camera without a queue, and keep the view still.");
     }
+    // White once more, to know how far two pictures of the same differ.
+    const auto again = taken(kWhite, facts_.late);
+    if (!again) return tl::unexpected(again.error());
+    restless_ = changed(*again);
     return {};
+}
+
+/// The difference of white and black reaches the picture; where it comes much later than it should, says so.
+Result<void> PatternCamera::somethingFollows() {
+    if (shareLit(white_, black_) >= 0.01) return {};
+    for (int i = 0; i < kVeryLate; ++i) {
+        const auto later = frame();
+        if (!later) return tl::unexpected(later.error());
+        if (shareLit(white_, *later) >= 0.01 && brightest(white_) >= 24) {
+            return fail(Fault::device, "The camera gives previous frames: what is shown reaches its pictures only " +
+                                           std::to_string(wish_.mostLate + 3 + i) +
+                                           " frames later. Use a camera without a queue, or fewer buffers.");
+        }
+    }
+    return tl::unexpected(nothingFollows());
+}
+
+double PatternCamera::changed(const Image<std::uint8_t>& picture) const {
+    std::size_t lit = 0, other = 0;
+    for (std::size_t i = 0; i < white_.pixels().size(); ++i) {
+        const int before = white_.pixels()[i], contrast = before - black_.pixels()[i];
+        if (contrast < 16) continue;
+        ++lit;
+        other += std::abs(before - picture.pixels()[i]) > std::max(8, contrast / 8) ? 1 : 0;
+    }
+    return lit == 0 ? 0.0 : static_cast<double>(other) / static_cast<double>(lit);
 }
 
 Result<void> PatternCamera::seesMarker() {
@@ -228,16 +283,14 @@ Result<void> PatternCamera::unmoved() {
     const auto again = taken(kWhite, std::max(facts_.late, 1));
     if (!again) return tl::unexpected(again.error());
     // Where white was clearly lit, it must be as bright as it was.
-    std::size_t lit = 0, changed = 0;
-    for (std::size_t i = 0; i < white_.pixels().size(); ++i) {
-        const int before = white_.pixels()[i], contrast = before - black_.pixels()[i];
-        if (contrast < 16) continue;
-        ++lit;
-        changed += std::abs(before - again->pixels()[i]) > std::max(12, contrast / 5) ? 1 : 0;
+    const double other = changed(*again);
+    if (other <= restless_ + kMoved) return {};
+    // What looks as it did after all, only much later, has not moved.
+    for (int i = 0; i < kVeryLate; ++i) {
+        if (const auto later = frame(); !later) return tl::unexpected(later.error());
+        if (changed(newest_) <= restless_ + kMoved) return fail(Fault::device, kPreviousFrames);
     }
-    if (lit == 0 || changed < lit / 50) return {};
-    return fail(Fault::device, "Something moved while it was scanned: " +
-                                   asText("%.0f %%", 100.0 * static_cast<double>(changed) / static_cast<double>(lit)) +
+    return fail(Fault::device, "Something moved while it was scanned: " + asText("%.1f %%", 100.0 * other) +
                                    " of what is lit looks different under the same white light than before. Keep "
                                    "camera, projector and things still, hands out of the view, and scan again.");
 }

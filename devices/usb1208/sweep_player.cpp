@@ -39,8 +39,12 @@ std::string milliamperes(double amperes) {
     return std::to_string(static_cast<int>(std::lround(amperes * 1e3))) + " mA";
 }
 
-Result<std::vector<double>> sampledOne(const Amplifier& amplifier, const Waveform& wave, std::size_t samples,
+Result<std::vector<double>> sampledOne(const LensChannel& channel, const Waveform& wave, std::size_t samples,
                                        const std::string& name) {
+    const Amplifier& amplifier = channel.amplifier;
+    // A lens that stays where it rests needs no drive of its own.
+    if (wave.drive.c.empty() && wave.still() && wave.low == wave.rest)
+        return std::vector<double>(samples, channel.rest.si());
     if (wave.drive.c.empty())
         return fail(Fault::unsupported,
                     "The plan says what power the " + name +
@@ -75,9 +79,9 @@ Result<SweepSamples> sampled(const LensChannels& channels, const Waveform& left,
     const auto count = usb1208::samplesPerSweep(left.rate);
     if (!count) return tl::unexpected(count.error());
     const auto samples = static_cast<std::size_t>(*count);
-    auto l = sampledOne(channels.left.amplifier, left, samples, "left");
+    auto l = sampledOne(channels.left, left, samples, "left");
     if (!l) return tl::unexpected(std::move(l.error()));
-    auto r = sampledOne(channels.right.amplifier, right, samples, "right");
+    auto r = sampledOne(channels.right, right, samples, "right");
     if (!r) return tl::unexpected(std::move(r.error()));
     return SweepSamples{*std::move(l), *std::move(r)};
 }
