@@ -25,16 +25,29 @@ void drawOver(const Viewport& viewport, ImDrawList& draw, const Texture& texture
 /// affinely and a homography is not affine.
 void drawLight(const Viewport& viewport, ImDrawList& draw, const Texture& light, const Document& document) {
     if (light.id == 0) return;
-    constexpr int kCells = 10;
-    const auto cameraFromProjector = projectorFromCamera(document).inverted();
+    const PixelMap map = pixelMap(document);
     const Size raster = document.rig.projector;
-    const auto at = [&](int i, int j) {
-        return vec(viewport.toWindow(cameraFromProjector(
-            {raster.width * static_cast<double>(i) / kCells, raster.height * static_cast<double>(j) / kCells})));
+    // A scanned map bends; cells that the camera does not see whole show no light.
+    const int cells = map.dense() ? 64 : 10;
+    const auto onRaster = [&](int i, int j) {
+        return Point<ProjectorFrame>{raster.width * static_cast<double>(i) / cells,
+                                     raster.height * static_cast<double>(j) / cells};
     };
-    const auto uv = [](int i, int j) { return ImVec2(static_cast<float>(i) / kCells, static_cast<float>(j) / kCells); };
-    for (int j = 0; j < kCells; ++j) {
-        for (int i = 0; i < kCells; ++i) {
+    const auto at = [&](int i, int j) { return vec(viewport.toWindow(map.toCamera(onRaster(i, j)))); };
+    const auto seen = [&](int i, int j) {
+        if (!map.dense()) return true;
+        const Size scanned = map.dense()->projector();
+        const auto pixel = onRaster(i, j);
+        return map.seen(std::min(static_cast<int>(pixel.x), scanned.width - 1),
+                        std::min(static_cast<int>(pixel.y), scanned.height - 1));
+    };
+    const auto uv = [&](int i, int j) {
+        return ImVec2(static_cast<float>(i) / static_cast<float>(cells),
+                      static_cast<float>(j) / static_cast<float>(cells));
+    };
+    for (int j = 0; j < cells; ++j) {
+        for (int i = 0; i < cells; ++i) {
+            if (!seen(i, j) || !seen(i + 1, j) || !seen(i, j + 1) || !seen(i + 1, j + 1)) continue;
             draw.AddImageQuad(textureId(light), at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1), uv(i, j),
                               uv(i + 1, j), uv(i + 1, j + 1), uv(i, j + 1));
         }

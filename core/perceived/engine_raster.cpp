@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/parallel.h"
 #include "core/perceived/engine_simd.h"
 
 namespace ilf::view {
@@ -22,15 +23,49 @@ BetweenPixels between(double at, int length) {
 
 }  // namespace
 
-LightMap::LightMap(const Homography<ProjectorFrame, CameraFrame>& to, const ViewScale& scaled, Size of, Size lit)
-    : toProjector(to), scale(scaled), view(of), projector(lit) {
-    const auto& m = to.m;
+LightMap::LightMap(const PixelMap& to, const ViewScale& scaled, Size of, Size lit)
+    : map(to), scale(scaled), view(of), projector(lit) {
+    if (map.dense()) {
+        const auto width = static_cast<std::size_t>(view.width);
+        scanned.resize(width * static_cast<std::size_t>(view.height));
+        const int columnsOfTiles = (view.width + kTileW - 1) / kTileW,
+                  rowsOfTiles = (view.height + kTileH - 1) / kTileH;
+        touched.resize(static_cast<std::size_t>(columnsOfTiles) * static_cast<std::size_t>(rowsOfTiles));
+        parallelFor(rowsOfTiles, [&](int row) {
+            for (int y = row * kTileH; y < std::min(view.height, (row + 1) * kTileH); ++y) {
+                for (int x = 0; x < view.width; ++x) {
+                    const auto p = map.toProjector({(x + 0.5) / scale.x, (y + 0.5) / scale.y});
+                    scanned[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = {
+                        static_cast<float>(p.x), static_cast<float>(p.y)};
+                    // A pixel between centres is lit by the pixels on both sides; one more for rounding.
+                    const auto left = static_cast<int>(std::clamp(std::floor(p.x), -9.0, lit.width + 9.0));
+                    const auto top = static_cast<int>(std::clamp(std::floor(p.y), -9.0, lit.height + 9.0));
+                    auto& tile = touched[static_cast<std::size_t>(row * columnsOfTiles + x / kTileW)];
+                    tile = tile.united({left - 2, top - 2, left + 3, top + 3});
+                }
+            }
+        });
+        return;
+    }
+    const auto& m = map.nearest().m;
     upright = m[1] == 0.0 && m[3] == 0.0 && m[6] == 0.0 && m[7] == 0.0;
     if (!upright) return;
     for (int x = 0; x < view.width; ++x)
         columns.push_back(between((m[0] * ((x + 0.5) / scale.x) + m[2]) / m[8], projector.width));
     for (int y = 0; y < view.height; ++y)
         rows.push_back(between((m[4] * ((y + 0.5) / scale.y) + m[5]) / m[8], projector.height));
+}
+
+bool LightMap::isFor(const PixelMap& other, const ViewScale& scaled, Size of, Size lit) const {
+    const bool sameMap = other.dense() || map.dense() ? other.dense().same(map.dense()) : other == map;
+    return sameMap && scaled.x == scale.x && scaled.y == scale.y && of == view && lit == projector;
+}
+
+Point<ProjectorFrame> LightMap::at(int x, int y) const {
+    if (scanned.empty()) return map.toProjector({(x + 0.5) / scale.x, (y + 0.5) / scale.y});
+    const auto& p =
+        scanned[static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width) + static_cast<std::size_t>(x)];
+    return {static_cast<double>(p[0]), static_cast<double>(p[1])};
 }
 
 std::vector<PixelRect<ProjectorFrame>> LightRaster::update(const LightImage& image) {
@@ -84,7 +119,7 @@ void LightRaster::sample(float* out, ViewRect tile, const LightMap& map) const {
     if (!map.upright) {
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
-                const auto at = map.toProjector({(tile.x0 + x + 0.5) / map.scale.x, (tile.y0 + y + 0.5) / map.scale.y});
+                const auto at = map.at(tile.x0 + x, tile.y0 + y);
                 out[y * kTileW + x] = value(between(at.x, map.projector.width), between(at.y, map.projector.height));
             }
         }

@@ -200,14 +200,14 @@ double lightAt(const Image<std::uint8_t>& image, Point<ProjectorFrame> at) {
 
 Light lit(const Document& document, const Scene& scene, const LightImage& shown) {
     const Image<std::uint8_t> image = toImage(shown);
-    const auto toProjector = projectorFromCamera(document);
+    const PixelMap map = pixelMap(document);
     const Frame& frame = scene.frame;
     Light light;
     light.radiance = scene.plain;
     parallelFor(frame.size.height, [&](int y) {
         for (int x = 0; x < frame.size.width; ++x) {
             const double here =
-                lightAt(image, toProjector({(x + 0.5) / frame.perPictureX, (y + 0.5) / frame.perPictureY}));
+                lightAt(image, map.toProjector({(x + 0.5) / frame.perPictureX, (y + 0.5) / frame.perPictureY}));
             for (std::size_t c = 0; c < 3; ++c)
                 light.radiance[3 * frame.index(x, y) + c] *= here;
         }

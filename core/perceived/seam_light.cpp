@@ -29,7 +29,7 @@ constexpr double kPoint = 0.05;
 }  // namespace
 
 SeamLight::SeamLight(const Compiled& compiled, const Program& program, const PixelRect<CameraFrame>& box)
-    : compiled_(compiled), toProjector_(projectorFromCamera(compiled.document)) {
+    : compiled_(compiled), map_(pixelMap(compiled.document)) {
     const Plan& plan = compiled.plan;
     weights_.assign(plan.levels.size(), 0.0);
     for (const Slot& slot : plan.slots) {
@@ -42,7 +42,7 @@ SeamLight::SeamLight(const Compiled& compiled, const Program& program, const Pix
     window.x0 = box.x0;
     window.y0 = box.y0;
     window.size = {box.width(), box.height()};
-    const auto under = rasterUnder(window, toProjector_, program.projector);
+    const auto under = rasterUnder(window, map_, program.projector);
     for (std::size_t l = 0; l < weights_.size(); ++l) {
         const bool lit = weights_[l] > 0.0 && l < program.images.size();
         if (!lit) weights_[l] = 0.0;
@@ -85,13 +85,13 @@ double SeamLight::at(Point<CameraFrame> p, const View& view) const {
         const View::Level& one = view.levels[l];
         const Point<CameraFrame> lit{view.centre.x + (p.x - view.centre.x) / one.magnification - one.movedX,
                                      view.centre.y + (p.y - view.centre.y) / one.magnification - one.movedY};
-        const Point<ProjectorFrame> middle = toProjector_(lit);
+        const Point<ProjectorFrame> middle = map_.toProjector(lit);
         if (one.radius < kPoint) {
             sum += weights_[l] * level(l, middle) / 255.0;
             continue;
         }
         // The raster is even over a disc: its two axes serve all points.
-        const auto x = toProjector_({lit.x + one.radius, lit.y}), y = toProjector_({lit.x, lit.y + one.radius});
+        const auto x = map_.toProjector({lit.x + one.radius, lit.y}), y = map_.toProjector({lit.x, lit.y + one.radius});
         const double xx = x.x - middle.x, xy = x.y - middle.y, yx = y.x - middle.x, yy = y.y - middle.y;
         double light = 0.0;
         for (const auto& [qx, qy] : discPoints()) {

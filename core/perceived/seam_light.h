@@ -34,7 +34,7 @@ private:
     double level(std::size_t l, Point<ProjectorFrame> p) const;
 
     const Compiled& compiled_;
-    Homography<ProjectorFrame, CameraFrame> toProjector_;
+    PixelMap map_;
     std::vector<Patch<std::uint8_t>> images_;  ///< of each level near the box; beyond the raster its edge goes on
     std::vector<double> weights_;              ///< of each level; 0 where it is not lit
 };

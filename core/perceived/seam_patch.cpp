@@ -141,8 +141,8 @@ std::vector<Light> programLights(const Compiled& compiled, const PatchWindow& wi
         for (const LevelLight& lit : slot.lit)
             slots[static_cast<std::size_t>(lit.level)] += lit.weight;
     }
-    const auto toProjector = projectorFromCamera(compiled.document);
-    const auto under = rasterUnder(window, toProjector, compiled.program.projector);
+    const PixelMap map = pixelMap(compiled.document);
+    const auto under = rasterUnder(window, map, compiled.program.projector);
     std::vector<Light> lights;
     for (std::size_t l = 0; l < plan.levels.size() && l < compiled.program.images.size(); ++l) {
         if (slots[l] <= 0.0) continue;
@@ -151,7 +151,7 @@ std::vector<Light> programLights(const Compiled& compiled, const PatchWindow& wi
         light.reserve(pixelCount(window));
         for (int y = 0; y < window.size.height; ++y) {
             for (int x = 0; x < window.size.width; ++x)
-                light.push_back(raster.at(toProjector(window.toPicture(x + 0.5, y + 0.5))));
+                light.push_back(raster.at(map.toProjector(window.toPicture(x + 0.5, y + 0.5))));
         }
         const double share = slots[l] / static_cast<double>(plan.slots.size());
         lights.push_back({Image<float>(window.size, 1, std::move(light)), plan.levels[l].power, share / plan.light});
@@ -159,12 +159,13 @@ std::vector<Light> programLights(const Compiled& compiled, const PatchWindow& wi
     return lights;
 }
 
-PixelRect<ProjectorFrame> rasterUnder(const PatchWindow& window,
-                                      const Homography<ProjectorFrame, CameraFrame>& toProjector, Size raster) {
+PixelRect<ProjectorFrame> rasterUnder(const PatchWindow& window, const PixelMap& map, Size raster) {
     double x0 = 1e9, y0 = 1e9, x1 = -1e9, y1 = -1e9;
-    for (const double x : {0.0, 0.5, 1.0}) {
-        for (const double y : {0.0, 0.5, 1.0}) {
-            const auto p = toProjector(window.toPicture(x * window.size.width, y * window.size.height));
+    const int parts = map.dense() ? 32 : 2;  // a scanned map may bulge anywhere
+    for (int i = 0; i <= parts; ++i) {
+        for (int j = 0; j <= parts; ++j) {
+            const double x = static_cast<double>(i) / parts, y = static_cast<double>(j) / parts;
+            const auto p = map.toProjector(window.toPicture(x * window.size.width, y * window.size.height));
             x0 = std::min(x0, p.x);
             x1 = std::max(x1, p.x);
             y0 = std::min(y0, p.y);

@@ -48,8 +48,7 @@ struct Seen {
 Seen seenThrough(const Plan& plan, const Looking& looking, Metre planned, Dioptre lens);
 
 /// The raster pixels that a patch can see; at least two on a side, and at least one of them on the raster.
-PixelRect<ProjectorFrame> rasterUnder(const PatchWindow& window,
-                                      const Homography<ProjectorFrame, CameraFrame>& toProjector, Size raster);
+PixelRect<ProjectorFrame> rasterUnder(const PatchWindow& window, const PixelMap& map, Size raster);
 
 /// What that eye receives of a white scene; 1 is the light of a region away from borders. One channel.
 Block seenPatch(const Compiled& compiled, const PatchWindow& window, const std::vector<Surface>& surfaces,

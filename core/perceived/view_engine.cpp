@@ -312,6 +312,14 @@ bool ViewEngine::State::remasked(const Document& now, ViewRect rect) const {
     });
 }
 
+namespace {
+
+bool meet(const PixelRect<ProjectorFrame>& a, const PixelRect<ProjectorFrame>& b) {
+    return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
+}
+
+}  // namespace
+
 void ViewEngine::State::light(const Document& now, const Program& played, const view::Setting& setting, bool all) {
     std::size_t levels = 0;
     for (const EngineLight& one : scene.lights)
@@ -323,15 +331,20 @@ void ViewEngine::State::light(const Document& now, const Program& played, const 
             scene.lightOfLevel.emplace_back(scene.tiles, 0.0F);
     }
     scene.changedLight.assign(levels, {});
-    const auto toProjector = projectorFromCamera(now);
-    const auto toCamera = toProjector.inverted();
-    if (all || !lightMap || lightMap->projector != played.projector)
-        lightMap.emplace(toProjector, setting.scale, scene.size, played.projector);
+    const PixelMap map = pixelMap(now);
+    const auto toCamera = map.nearest().inverted();
+    if (!lightMap || !lightMap->isFor(map, setting.scale, scene.size, played.projector))
+        lightMap.emplace(map, setting.scale, scene.size, played.projector);
     for (std::size_t level = 0; level < levels; ++level) {
         std::vector<bool> marked(static_cast<std::size_t>(scene.tiles.count()), false);
         const auto changed = rasters[level].update(played.images[level]);
         for (const auto& rect : changed) {
             if (all) break;
+            if (map.dense()) {
+                for (std::size_t tile = 0; tile < marked.size(); ++tile)
+                    marked[tile] = marked[tile] || meet(lightMap->touched[tile], rect);
+                continue;
+            }
             // A projector pixel lights what lies between its neighbours' centres.
             ViewRect reached{0, 0, scene.size.width, scene.size.height};
             double x0 = 1e30, y0 = 1e30, x1 = -1e30, y1 = -1e30;

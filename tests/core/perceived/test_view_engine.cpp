@@ -6,6 +6,7 @@
 
 #include "tests/core/perceived/small_scene.h"
 #include "tests/support/law.h"
+#include "tests/support/scanned_map.h"
 
 using namespace ilf;
 using namespace ilf::test;
@@ -99,6 +100,9 @@ TEST_CASE("view engine: after random edits the view is bit for bit that of a fre
         Document first = desk(sloped);
         first.rig.primaries = std::array<Metre, 3>{623e-9_m, 530e-9_m, 460e-9_m};
         if (*rc::gen::inRange(0, 4) == 0) first.rig.room.ambient_lx = 20.0;
+        const Homography<ProjectorFrame, CameraFrame> tilted{{0.96, 0.02, 4, -0.03, 0.98, 6, 1e-5, -3e-5, 1}};
+        static const Box<DenseMap> bent(sampledMap(tilted, kWide, kWide, 2.0));
+        if (*rc::gen::inRange(0, 3) == 0) first.rig.registration = registered(bent);
         Played now = played(first);
         look(one, now, request);
         look(two, now, request);
@@ -142,6 +146,14 @@ TEST_CASE("view engine: after random edits the view is bit for bit that of a fre
             RC_ASSERT(c.computed + c.unchanged + c.plain + c.left == c.tiles);
         }
     });
+}
+
+TEST_CASE("view engine: light through a scanned map that says what a homography says is the same light") {
+    Document d = desk(false);
+    d.rig.registration = registered(Homography<ProjectorFrame, CameraFrame>{});
+    const PerceivedView plane = afresh(played(d));
+    d.rig.registration = registered(Box<DenseMap>(sampledMap({}, kWide, kWide)));
+    CHECK(identical(plane, afresh(played(d))));
 }
 
 TEST_CASE("view engine: nothing changed, nothing worked out") {
