@@ -21,6 +21,13 @@ using nlohmann::json;
 
 namespace {
 
+/// The square, its JSON open to be spoilt.
+struct MadeGltf : MadeSquare {
+    nlohmann::json json = nlohmann::json::parse(kJson);
+
+    Result<projects::GltfScene> read() const { return readAs(json.dump()); }
+};
+
 /// What a command writes to a stream while it lives.
 class Heard {
 public:

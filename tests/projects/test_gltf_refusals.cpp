@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "core/solid/extent.h"
 #include "tests/projects/made_gltf.h"
@@ -12,6 +13,18 @@ using nlohmann::json;
 using projects::readGltf;
 
 namespace {
+
+/// The square, its JSON open to be spoilt.
+struct MadeGltf : MadeSquare {
+    nlohmann::json json = nlohmann::json::parse(kJson);
+
+    Result<projects::GltfScene> read() const { return readAs(json.dump()); }
+    /// The sentence of its refusal, or "" where it is read.
+    std::string refusal() const {
+        const auto scene = read();
+        return scene ? "" : scene.error().what;
+    }
+};
 
 bool says(const std::string& sentence, const std::string& part) {
     INFO(sentence);
