@@ -7,13 +7,16 @@
 #include <string_view>
 
 #include "core/base/result.h"
-#include "core/registration/pixel_map.h"
+#include "core/registration/registration.h"
 
 namespace ilf::projects {
 
 /// What is known of a map besides its numbers, for whoever finds the file. Keys: letters, digits, '-' and '_', the
 /// first a letter; values: at most 1000 bytes.
 using MapFacts = std::map<std::string, std::string>;
+
+/// Of a registration: when, with which devices, how good.
+MapFacts factsOf(const Registration& registration);
 
 struct MapFile {
     DenseMap map;

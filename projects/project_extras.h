@@ -27,6 +27,11 @@ struct ProjectExtras::State {
     std::vector<Original> originals;
     std::vector<EncodedMask> masks;
     EncodedDepth depth, measured;
+    struct EncodedMap {
+        Box<DenseMap> map;
+        Box<std::string> bytes;
+    };
+    EncodedMap map;  ///< of the rig's registration
 };
 
 }  // namespace ilf::projects

@@ -2,6 +2,7 @@
 
 #include "core/document/edit.h"
 #include "projects/file_tree.h"
+#include "projects/map_file.h"
 #include "projects/project_extras.h"
 #include "projects/project_file.h"
 #include "projects/project_json.h"
@@ -147,7 +148,15 @@ private:
         if (!rigName.empty()) {
             auto json = readJson(tree_, rigName);
             if (!json) return tl::unexpected(json.error());
-            auto rig = rigFrom(*json, tree_.spokenName(rigName));
+            const MapReader inTree = [&](const std::string& name) -> Result<Box<DenseMap>> {
+                auto bytes = tree_.read(name);
+                if (!bytes) return tl::unexpected(bytes.error());
+                auto file = decodeMap(*bytes, tree_.spokenName(name));
+                if (!file) return tl::unexpected(file.error());
+                state_.map = {Box<DenseMap>(std::move(file->map)), Box<std::string>(*std::move(bytes))};
+                return state_.map.map;
+            };
+            auto rig = rigFrom(*json, tree_.spokenName(rigName), inTree);
             if (!rig) return tl::unexpected(rig.error());
             document().rig = *std::move(rig);
             state_.rig = *std::move(json);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "projects/file_tree.h"
+#include "projects/map_file.h"
 #include "projects/project_extras.h"
 #include "projects/project_file.h"
 #include "projects/project_json.h"
@@ -20,6 +21,7 @@ namespace ilf::projects {
 namespace {
 
 constexpr std::size_t kBackups = 5;
+const std::string kMapName = "rig-map.exr";
 /// Pictures kept byte for byte: the current one and those undo may bring back.
 constexpr std::size_t kOriginals = 4;
 
@@ -55,7 +57,10 @@ public:
     Composing(const Document& document, const ProjectExtras::State& before) : document_(document), state_(before) {}
 
     Result<void> run() {
-        if (auto added = addPicture().and_then([&] { return addMasks(); }).and_then([&] { return addDepth(); });
+        if (auto added =
+                addPicture().and_then([&] { return addMasks(); }).and_then([&] { return addDepth(); }).and_then([&] {
+                    return addMap();
+                });
             !added) {
             return added;
         }
@@ -63,7 +68,7 @@ public:
         names_.rig = "rig.json";
         state_.project = written(document_, names_, state_.project);
         state_.wearer = written(document_.wearer, state_.wearer);
-        state_.rig = written(document_.rig, state_.rig);
+        state_.rig = written(document_.rig, state_.rig, mapName_);
         add("project.json", boxed(state_.project.text()));
         add(names_.wearer, boxed(state_.wearer.text()));
         add(names_.rig, boxed(state_.rig.text()));
@@ -140,6 +145,23 @@ private:
         return {};
     }
 
+    /// The rig's scanned map. Encoded once: what is read back is the very numbers that were checked when they came in.
+    Result<void> addMap() {
+        const Box<Registration>& registration = document_.rig.registration;
+        if (!registration || !registration->map.dense()) {
+            state_.map = {};
+            return {};
+        }
+        if (!state_.map.map.same(registration->map.dense())) {
+            auto bytes = encodeMap(*registration->map.dense(), factsOf(*registration), MapFormat::exr);
+            if (!bytes) return tl::unexpected(bytes.error());
+            state_.map = {registration->map.dense(), boxed(*std::move(bytes))};
+        }
+        mapName_ = kMapName;
+        add(mapName_, state_.map.bytes);
+        return {};
+    }
+
     /// What is about to be written can be read again; found out before the old version is touched.
     Result<void> readsBack() const {
         const std::string file = "the project as it would be saved";
@@ -152,7 +174,8 @@ private:
         if (!project) return words(project.error());
         const auto wearer = wearerFrom(state_.wearer, file);
         if (!wearer) return words(wearer.error());
-        const auto rig = rigFrom(state_.rig, file);
+        const auto rig =
+            rigFrom(state_.rig, file, [&](const std::string&) -> Result<Box<DenseMap>> { return state_.map.map; });
         if (!rig) return words(rig.error());
         return {};
     }
@@ -160,6 +183,7 @@ private:
     const Document& document_;
     ProjectExtras::State state_;
     ProjectNames names_;
+    std::string mapName_;
     std::vector<TreeFile> files_;
 };
 
@@ -189,6 +213,7 @@ Result<void> carryOtherFiles(const fs::path& origin, const fs::path& target, con
         return Json::parse(text, "project.json");
     });
     if (json) skipped = filesNamedIn(*json);
+    skipped.insert(kMapName);
     for (const TreeFile& file : files)
         skipped.insert(file.name);
     const bool samePlace = fs::equivalent(origin, target, ignored);

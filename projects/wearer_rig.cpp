@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "core/document/edit.h"
+#include "projects/calibration_json.h"
+#include "projects/file_tree.h"
+#include "projects/map_file.h"
 #include "projects/safe_file.h"
 #include "projects/wearer_rig_json.h"
 
@@ -68,7 +72,31 @@ Json keysOf(const fs::path& path, const char* format) {
     return json && json->word("format") == format ? *json : Json();
 }
 
+const std::string kMapEnding = ".map.exr";
+
+/// FNV-1a, 64 bits: tells two maps of one rig apart.
+std::string fingerprint(const std::string& bytes) {
+    std::uint64_t hash = 14695981039346656037ULL;
+    for (const char c : bytes)
+        hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+    std::string hex(16, '0');
+    for (std::size_t i = 16; i-- > 0; hash >>= 4)
+        hex[i] = "0123456789abcdef"[hash & 15];
+    return hex;
+}
+
 }  // namespace
+
+MapFacts factsOf(const Registration& registration) {
+    MapFacts facts{{"taken", registration.taken},
+                   {"device", registration.camera.device},
+                   {"projector", registration.projectorName},
+                   {"provenance", registration.provenance},
+                   {"rms_px", std::to_string(registration.rms_px)}};
+    for (auto& [key, value] : facts)
+        value.resize(std::min(value.size(), std::size_t{500}));
+    return facts;
+}
 
 Json written(const Wearer& wearer, Json json) {
     json.set("format", std::string(kWearerFormat));
@@ -126,7 +154,7 @@ Result<Wearer> wearerFrom(const Json& json, const std::string& file) {
     return judged(std::move(wearer), reader, file);
 }
 
-Json written(const Rig& rig, Json json) {
+Json written(const Rig& rig, Json json, const std::string& mapName) {
     json.set("format", std::string(kRigFormat));
     json.set("version", kRigVersion);
     json.set("name", rig.name);
@@ -159,8 +187,15 @@ Json written(const Rig& rig, Json json) {
     if (rig.registration) {
         const auto& m = rig.registration->map.nearest().m;
         json.set("projector_from_camera", std::vector<double>(m.begin(), m.end()));
+        json.set("registration", written(*rig.registration, json.object("registration"), mapName));
     } else {
         json.erase("projector_from_camera");
+        json.erase("registration");
+    }
+    if (rig.calibration) {
+        json.set("calibration", written(*rig.calibration, json.object("calibration")));
+    } else {
+        json.erase("calibration");
     }
     if (rig.devices) {
         json.set("devices", written(*rig.devices, json.object("devices")));
@@ -171,7 +206,7 @@ Json written(const Rig& rig, Json json) {
     return json;
 }
 
-Result<Rig> rigFrom(const Json& json, const std::string& file) {
+Result<Rig> rigFrom(const Json& json, const std::string& file, const MapReader& maps) {
     if (auto known = checkedFormat(json, file, kRigFormat, kRigVersion, "rig file"); !known) {
         return tl::unexpected(known.error());
     }
@@ -211,6 +246,16 @@ Result<Rig> rigFrom(const Json& json, const std::string& file) {
         Homography<ProjectorFrame, CameraFrame> plane;
         std::copy(m.begin(), m.end(), plane.m.begin());
         rig.registration = registered(plane);
+        // Rigs of version 1 have no more than that.
+        if (reader.has("registration") && !reader.problem()) {
+            auto registration = registrationFrom(reader.object("registration"), plane, maps);
+            if (!registration) return tl::unexpected(registration.error());
+            rig.registration = *std::move(registration);
+        }
+    }
+    if (reader.has("calibration")) {
+        JsonReader calibration = reader.object("calibration");
+        rig.calibration = Box<ProcamCalibration>(procamCalibrationFrom(calibration));
     }
     if (reader.has("devices")) rig.devices = rigDevicesFrom(reader.object("devices"));
     rig.provenance = reader.word("provenance");
@@ -221,13 +266,28 @@ Result<Wearer> readWearer(const fs::path& path) {
     return readJson(path).and_then([&](const Json& json) { return wearerFrom(json, spoken(path)); });
 }
 Result<Rig> readRig(const fs::path& path) {
-    return readJson(path).and_then([&](const Json& json) { return rigFrom(json, spoken(path)); });
+    const MapReader beside = [&](const std::string& name) {
+        return readMap(path.parent_path() / name).map([](MapFile file) { return Box<DenseMap>(std::move(file.map)); });
+    };
+    return readJson(path).and_then([&](const Json& json) { return rigFrom(json, spoken(path), beside); });
 }
 Result<void> writeWearer(const fs::path& path, const Wearer& wearer) {
     return writeAtomically(path, written(wearer, keysOf(path, kWearerFormat)).text());
 }
 Result<void> writeRig(const fs::path& path, const Rig& rig) {
-    return writeAtomically(path, written(rig, keysOf(path, kRigFormat)).text());
+    const Json before = keysOf(path, kRigFormat);
+    const std::string mapBefore = before.object("registration").word("map"), own = path.stem().string() + "-";
+    std::string map;
+    if (rig.registration && rig.registration->map.dense()) {
+        const auto bytes = encodeMap(*rig.registration->map.dense(), factsOf(*rig.registration), MapFormat::exr);
+        if (!bytes) return tl::unexpected(bytes.error());
+        map = own + fingerprint(*bytes) + kMapEnding;
+        if (auto saved = writeAtomically(path.parent_path() / map, *bytes); !saved) return saved;
+    }
+    if (auto saved = writeAtomically(path, written(rig, before, map).text()); !saved) return saved;
+    const bool ours = mapBefore.starts_with(own) && mapBefore.ends_with(kMapEnding) && staysInside(mapBefore);
+    if (ours && mapBefore != map) removeQuietly(path.parent_path() / mapBefore);
+    return {};
 }
 
 }  // namespace ilf::projects
