@@ -64,6 +64,8 @@ PixelMap pixelMap(const Document& document) {
 
 Point<CameraFrame> cameraAxis(const Document& document) {
     const Size size = document.scene.size();
+    const Box<ProcamCalibration>& calibration = document.rig.calibration;
+    if (calibration && calibration->camera.size == size) return {calibration->camera.cx, calibration->camera.cy};
     return {0.5 * size.width, 0.5 * size.height};
 }
 
