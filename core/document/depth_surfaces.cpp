@@ -1,4 +1,4 @@
-#include "core/document/depth_surfaces.h"
+#include "core/document/depth_surfaces_cv.h"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/document/depth_surfaces.h"
+#include "core/document/depth_surfaces_cv.h"
 
 namespace ilf {
 
