@@ -6,7 +6,7 @@
 
 #include "projects/map_file.h"
 #include "projects/scan_folder.h"
-#include "tests/core/registration/synthetic_scan.h"
+#include "tests/support/synthetic_scan.h"
 #include "tests/projects/folder.h"
 #include "tests/support/run_program.h"
 

@@ -20,7 +20,7 @@
 #include "core/registration/gray_code.h"
 #include "core/registration/scan_diagnosis.h"
 #include "projects/scan_folder.h"
-#include "tests/core/registration/synthetic_scan.h"
+#include "tests/support/synthetic_scan.h"
 #include "tests/support/test_data.h"
 
 namespace {

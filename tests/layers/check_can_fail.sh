@@ -32,6 +32,8 @@ breaks() {
 breaks core/bad.cpp '#include "devices/stage.h"'
 breaks core/bad.h '// A value.' '#include "ui/panel.h"'
 breaks core/bad.h '// A value.' '#include <opencv2/core.hpp>'
+breaks core/bad.cpp '#include "core/lens/parts_cv.h"'
+breaks core/bad.h '// A value.' '#include "core/parts_cv.h"'
 breaks core/bad.cpp '#include <imgui.h>'
 breaks core/bad.cpp '#  include <nlohmann/json.hpp>'
 breaks ui/bad.cpp '#include "projects/file.h"'

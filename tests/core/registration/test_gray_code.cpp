@@ -4,7 +4,7 @@
 #include <set>
 
 #include "core/registration/gray_code.h"
-#include "tests/core/registration/synthetic_scan.h"
+#include "tests/support/synthetic_scan.h"
 #include "tests/support/law.h"
 
 using namespace ilf;

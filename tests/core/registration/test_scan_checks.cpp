@@ -4,7 +4,7 @@
 #include "core/registration/ambient.h"
 #include "core/registration/hole_filling.h"
 #include "core/registration/map_check.h"
-#include "tests/core/registration/synthetic_scan.h"
+#include "tests/support/synthetic_scan.h"
 #include "tests/support/law.h"
 
 using namespace ilf;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/registration/scan_diagnosis.h"
-#include "tests/core/registration/synthetic_scan.h"
+#include "tests/support/synthetic_scan.h"
 
 using namespace ilf;
 
