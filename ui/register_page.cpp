@@ -245,6 +245,18 @@ void column(Panel& p, const RegisterView& r) {
     ImGui::NewLine();
 }
 
+constexpr double kPadding = 8.0;
+
+/// Picture and charts together.
+Rect pageOf(const Layout& at) {
+    Rect page = at.canvas;
+    if (!at.header.empty()) page = {page.x, at.header.y, page.w, at.header.h + page.h};
+    if (!at.sweep.empty()) page.h = at.sweep.bottom() - page.y;
+    return page;
+}
+
+double columnWidth(const Rect& page, double scale) { return std::clamp(0.36 * page.w, 240.0 * scale, 380.0 * scale); }
+
 const char* methodName(Registration::Method method) {
     switch (method) {
     case Registration::Method::typed:
@@ -296,21 +308,24 @@ void registerCard(Panel& p) {
     commandTooltip(Command::registerCamera, reason);
 }
 
+Rect registerPictureArea(const Layout& at, double scale) {
+    const Rect page = pageOf(at);
+    const double left = page.x + columnWidth(page, scale) + 3 * kPadding * scale;
+    return {left, page.y + kPadding * scale, std::max(1.0, page.right() - kPadding * scale - left),
+            std::max(1.0, page.h - 2 * kPadding * scale)};
+}
+
 void registerPage(Panel& p) {
     const RegisterView& r = *p.view.registering;
     p.state.cursor.reset();
-    Rect area = p.at.canvas;
-    if (!p.at.header.empty()) area = {area.x, p.at.header.y, area.w, p.at.header.h + area.h};
-    if (!p.state.panels.hidden && !p.at.sweep.empty()) area.h = p.at.sweep.bottom() - area.y;
-    beginPanel("###register", area, colour::ground, true, false);
-    const float left = std::clamp(static_cast<float>(area.w) * 0.36f, p.px(260), p.px(380));
+    const Rect page = pageOf(p.at);
+    beginPanel("###register", page, colour::ground, true, false);
     const bool typing = ImGui::GetIO().WantTextInput;
-    ImGui::BeginChild("###registerNow", {left, 0}, false, typing ? 0 : ImGuiWindowFlags_NoNavInputs);
+    ImGui::BeginChild("###registerNow", {static_cast<float>(columnWidth(page, p.scale)), 0}, false,
+                      typing ? 0 : ImGuiWindowFlags_NoNavInputs);
     column(p, r);
     ImGui::EndChild();
-    ImGui::SameLine(0, p.px(12));
-    const ImVec2 from = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
-    registerPicture(p, r, {from.x, from.y, size.x, size.y});
+    registerPicture(p, r, registerPictureArea(p.at, p.scale));
     ImGui::End();
 }
 

@@ -12,9 +12,14 @@ void registerPage(Panel& p);
 /// Rig's card: what the rig's registration is worth, and the button that leads to the page.
 void registerCard(Panel& p);
 
+/// Over the picture's upper edge while `View::bump` is set, with what can be done about it.
+void bumpBanner(Panel& p);
+
 /// The camera's picture with what the operator drags and clicks on it.
 void registerPicture(Panel& p, const RegisterView& r, const Rect& area);
-/// How the camera's picture lies in `area`.
+/// Where the page has its picture, as large as it can be.
+Rect registerPictureArea(const Layout& at, double scale);
+/// How the camera's picture lies there.
 Viewport registerViewport(const RegisterView& r, const Rect& area);
 
 /// "scan", "four corners", ...

@@ -47,6 +47,11 @@ struct RegisterLight {
     double projectorShare = 0.0, contrast = 0.0, exposure_s = 0.0;
 };
 
+/// The camera no longer stands where it was registered.
+struct BumpView {
+    double moved_px = 0.0;  ///< median way of what is seen, camera pixels
+};
+
 /// Nothing of it is a device: the app shows light, takes pictures and says how far it is.
 struct RegisterView {
     enum class State {

@@ -108,6 +108,8 @@ struct Register {
         picture,  ///< the live picture instead of the quality map, and back
         accept,   ///< the registration goes into the rig
         close,
+        shift,  ///< the camera was bumped: picture, regions and map move along
+        quiet,  ///< it was, and the operator knows
     } step = Step::open;
     RegisterSetup setup{};
 };

@@ -86,6 +86,7 @@ Requests studio(const View& view, State& state, const Input& input) {
         statusLine(p);
         splitters(p);
     }
+    if (!page) bumpBanner(p);
     debugPanel(p);
     hints(p);
     toasts(p);

@@ -134,6 +134,7 @@ struct View {
     Texture registerPicture{};                  ///< of its picture
     double time_s = 0.0;                        ///< monotonic
     double scale = 1.0;                         ///< content scale of the display
+    std::optional<BumpView> bump{};             ///< present: say so
 };
 
 }  // namespace ilf::ui

@@ -37,6 +37,8 @@ public:
     /// What went wrong since the last call, each once.
     std::vector<std::string> takeSentences();
     ui::CameraStatus status() const;
+    /// The stable id of what is open; empty: nothing.
+    std::string id() const { return camera_ ? camera_->state().id : std::string(); }
     /// Ids of the cameras plugged in; looked for again when a camera is opened or closed.
     const std::vector<std::string>& ids() const { return ids_; }
 

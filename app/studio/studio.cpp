@@ -102,7 +102,7 @@ Studio::Studio(StudioOptions options, std::vector<std::string> coreArguments, st
     : options_(std::move(options)), window_(std::move(window)), editor_(opened.document), keeper_(&Window::wake),
       camera_(&Window::wake), selector_(&Window::wake), measurer_(devices::runtimeDirectory(), &Window::wake),
       registrar_(devices::runtimeDirectory(), &Window::wake), times_(!options_.frameTimes.empty()),
-      changedAt_(Clock::now()), worker_(*simulatedLens(options_.rig), &Window::wake),
+      changedAt_(Clock::now()), worker_(*simulatedLens(options_.rig), &Window::wake), bumpWatch_(&Window::wake),
       link_(options_.coreProgram, std::move(coreArguments), devices::runtimeDirectory(), &Window::wake) {
     if (!options_.resetLayout) ui_ = ui::withLayout(ui_, keeper_.layoutText());
     ui_.mode = startMode(options_.view);
@@ -198,6 +198,10 @@ void Studio::collect() {
     if (measurer_.collect()) quietFrames_ = 0;
     lendDevices();
     tendRegistering();
+    if (auto report = bumpWatch_.tryTake()) {
+        bump_ = report->bumped ? std::move(report) : std::nullopt;
+        quietFrames_ = 0;
+    }
     if (camera_.collect()) takeFrame();
     for (const std::string& sentence : camera_.takeSentences())
         say(sentence, ui::Tone::warning);
@@ -268,6 +272,7 @@ void Studio::takeNews(LinkNews news) {
 void Studio::takeFrame() {
     if (registrar_.view()) return registrar_.livePicture(camera_.frame().rgb);
     if (camera_.live()) pictures_.showLive(camera_.frame().rgb);
+    lookForBump();
 }
 
 void Studio::postJob() {
@@ -396,6 +401,7 @@ ui::View Studio::view() const {
     view.busySelecting = selector_.busy();
     view.measuring = measurer_.view();
     view.registering = registrar_.view();
+    if (bump_) view.bump = ui::BumpView{bump_->moved_px};
     view.time_s = now_s();
     view.scale = window_->contentScale();
     return view;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/studio/bump_watch.h"
 #include "app/studio/camera_port.h"
 #include "app/studio/editor.h"
 #include "app/studio/keeper.h"
@@ -86,6 +87,8 @@ private:
     void registerCamera();         ///< opens the page, or says why not
     void tendRegistering();        ///< what it found, and which camera it wants
     void writeRegistration(const Registrar::ToWrite& found);
+    void lookForBump();
+    void followBump();
     void setScene(Scene scene);
     Scene carriedOver(Scene scene) const;  ///< with what the scene before it knows and its picture does not change
     void take();
@@ -107,8 +110,11 @@ private:
     Measurer measurer_;
     bool lent_ = false;  ///< devices are asked from the output core, or lent already
     Registrar registrar_;
-    std::string registeringCamera_;  ///< open for the page
-    bool cameraBefore_ = false;      ///< one was open before the page was
+    std::string registeringCamera_;   ///< open for the page
+    bool cameraBefore_ = false;       ///< one was open before the page was
+    std::optional<BumpReport> bump_;  ///< the camera was moved
+    Box<Registration> bumpQuiet_;     ///< the operator knows that it no longer holds
+    double bumpLookedAt_s_ = 0.0;
 
     Done done_;  ///< the newest of the worker
     Seen seen_;  ///< the newest of the viewer
@@ -138,6 +144,7 @@ private:
     int quietFrames_ = 0;  ///< frames since anything happened: then the loop may wait
 
     Worker worker_;  // threads: after all they wake
+    BumpWatch bumpWatch_;
     Link link_;
 };
 

@@ -63,6 +63,12 @@ void Studio::on(const ui::Register& request) {
         return registrar_.accept(request.setup.asScene);
     case Step::close:
         return registrar_.close();
+    case Step::shift:
+        return followBump();
+    case Step::quiet:
+        bumpQuiet_ = editor_.document().rig.registration;
+        bump_.reset();
+        return;
     }
 }
 
@@ -81,6 +87,7 @@ void Studio::registerCamera() {
     const Document& document = editor_.document();
     const Dioptre rest = document.wearer.camera ? Dioptre() : restPower(eyeOptics(document.wearer));
     cameraBefore_ = camera_.live();
+    bump_.reset();
     registrar_.open(document.rig, rest, usualCamera(document.rig, core_));
 }
 

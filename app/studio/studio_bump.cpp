@@ -1,0 +1,55 @@
+// Whether the camera was bumped since it was registered: looked at each second, said once, one click to follow it.
+#include <utility>
+
+#include "app/studio/studio.h"
+#include "core/track/moved_mask.h"
+
+namespace ilf::app {
+namespace {
+
+constexpr double kLooks_s = 1.0;
+
+}  // namespace
+
+void Studio::lookForBump() {
+    const Document& document = editor_.document();
+    const Box<Registration>& own = document.rig.registration;
+    const Scene& scene = document.scene;
+    // The scene's picture is the reference: it was taken by this camera where it was registered.
+    const bool comparable = own && !registrar_.view() && scene.picture && camera_.live() &&
+                            camera_.id() == own->camera.device && scene.source == own->camera.device &&
+                            camera_.frame().rgb.size() == scene.size();
+    if (!comparable || own.same(bumpQuiet_)) {
+        bump_.reset();
+        return;
+    }
+    if (now_s() - bumpLookedAt_s_ < kLooks_s) return;
+    bumpLookedAt_s_ = now_s();
+    bumpWatch_.compare(scene.picture, camera_.frame().rgb);
+}
+
+void Studio::followBump() {
+    if (!bump_ || !bump_->newFromOld || !camera_.live()) return;
+    const Document& document = editor_.document();
+    const Motion motion = *bump_->newFromOld;
+    bump_.reset();
+    Rig rig = document.rig;
+    rig.registration = Box(afterBump(*rig.registration, motion));
+    auto grabbed = camera_.grabbed();
+    if (!grabbed) return say(grabbed.error().what, ui::Tone::warning);
+    Scene scene = document.scene;
+    scene.picture = grabbed->picture;
+    std::vector<Edit> edits{SetRig{std::move(rig)}, SetScene{std::move(scene)}};
+    for (const Box<Region>& region : document.regions)
+        edits.push_back(SetMask{region->id, moved(region->mask, motion), "Follow the camera"});
+    for (Edit& one : edits) {
+        // A locked region stays, and says so.
+        if (const auto done = editor_.handle({ui::EditRequest::When::preview, std::move(one)}); !done)
+            say(done.error().what, ui::Tone::warning);
+    }
+    editor_.commitGesture("Follow the camera");
+    if (document.scene.depth)
+        say("Depth does not move along: scan again where distances come from it.", ui::Tone::warning);
+}
+
+}  // namespace ilf::app
