@@ -28,7 +28,8 @@ struct RegionMotion {
 /// The document as it is now: masks, outlines and the anchors of planes move along; a depth map does not, as it
 /// belongs to the picture. A faded region has the look of its `whenLost` (a blurred one loses its strength: the safe
 /// blur is that of the sweep's end). In between it is laid over a copy with that look, and its own coverage is
-/// 1 - fade: the compiler mixes by coverage, so light goes over evenly and stays steady in sum. Regions that follow
+/// 1 - fade: the compiler weighs by coverage; light goes over in one
+/// direction, though not evenly (measured: the greater part near a fade of one half). Regions that follow
 /// nothing, and motions of regions that are not there, are left alone. `before`: the last answer, whose tiles are
 /// shared. Ids of copies end in kFadedSuffix.
 Document moved(const Document& document, std::span<const RegionMotion> motions, const Document* before = nullptr);
