@@ -67,7 +67,7 @@ TEST_CASE("a shift by whole pixels moves every value as it is") {
     });
 }
 
-TEST_CASE("a moved shape is the shape drawn there, to a fifth of its border pixels' coverage") {
+TEST_CASE("a moved shape is the shape drawn there, to a quarter of its border pixels' coverage") {
     law("shape", [] {
         const Quad shape{{{120, 60}, {190, 70}, {180, 130}, {110, 120}}};
         const double scale = *rc::gen::inRange(50, 130) / 100.0;
@@ -75,7 +75,7 @@ TEST_CASE("a moved shape is the shape drawn there, to a fifth of its border pixe
             turned(*rc::gen::inRange(-40, 41), *rc::gen::inRange(-30, 100), *rc::gen::inRange(-40, 41), scale);
         const Mask painted = rasterised(outlineOf(shape), kSize);
         const Mask truth = rasterised(outlineOf(moved(shape, motion)), kSize);
-        RC_ASSERT(meanError(moved(painted, motion), truth, 4 * 65.0 * std::max(1.0, scale)) < 0.2);
+        RC_ASSERT(meanError(moved(painted, motion), truth, 4 * 65.0 * std::max(1.0, scale)) < 0.25);
     });
 }
 
