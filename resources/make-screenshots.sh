@@ -61,3 +61,27 @@ panel 3 emulated slotted projector:unplug
 panel 4 emulated slotted projector:wrong-mode:0:1
 convert "$work"/panel-[1234].png +append "$out/devices.png"
 echo "$out/devices.png"
+
+# The registering page after a scan of the emulated scene: no project, F4, Scan, and a light that is steady again.
+"$bin/illuminatedfocus-core" --runtime-dir "$ILF_RUNTIME_DIR" --stop >/dev/null 2>&1 || true
+ILF_STATE_DIR="$work/state-register" "$bin/illuminatedfocus" --rig simulated --size 1600x1000 >/dev/null 2>&1 &
+studio=$!
+until_light() {
+    until "$bin/illuminatedfocus-core" --runtime-dir "$ILF_RUNTIME_DIR" --status 2>/dev/null |
+        jq -e ".core.light == \"$1\"" >/dev/null; do sleep 0.3; done
+}
+until_light steady
+sleep 3
+xdotool mousemove 600 500 key F4
+sleep 6
+xdotool mousemove 104 287
+sleep 0.5
+xdotool mousedown 1 sleep 0.2 mouseup 1
+until_light slotted
+until_light steady
+xdotool mousemove 800 940
+sleep 3
+import -window root -crop 1600x1000+0+0 +repage "$out/register.png"
+kill "$studio"
+wait "$studio" 2>/dev/null || true
+echo "$out/register.png"

@@ -319,6 +319,8 @@ void registerPage(Panel& p) {
     const RegisterView& r = *p.view.registering;
     p.state.cursor.reset();
     const Rect page = pageOf(p.at);
+    // Charts lie below all columns, the page below one of them.
+    ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, ImGui::GetIO().DisplaySize, colour::ground);
     beginPanel("###register", page, colour::ground, true, false);
     const bool typing = ImGui::GetIO().WantTextInput;
     ImGui::BeginChild("###registerNow", {static_cast<float>(columnWidth(page, p.scale)), 0}, false,
