@@ -8,7 +8,7 @@
 #include <opencv2/video/tracking.hpp>
 #include <string>
 
-#include "core/track/planar_parts.h"
+#include "core/track/planar_cv.h"
 
 namespace ilf {
 

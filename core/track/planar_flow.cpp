@@ -5,7 +5,7 @@
 #include <opencv2/video/tracking.hpp>
 #include <vector>
 
-#include "core/track/planar_parts.h"
+#include "core/track/planar_cv.h"
 
 namespace ilf {
 
