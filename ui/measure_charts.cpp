@@ -40,8 +40,10 @@ void powersChart(Panel& p, const MeasureView& m) {
         summary = std::to_string(m.powers.size()) + " currents" + (m.known.empty() ? "" : ", rings known before");
         across = {m.powers.front().x, m.powers.back().x};
     }
+    std::vector<ChartPoint> both = m.powers;
+    both.insert(both.end(), m.known.begin(), m.known.end());
     const ChartFrame frame =
-        chartFrame(p, area, "AT REST  power by current", summary, across, rangeOf(m.powers, 1.0), "mA", "D");
+        chartFrame(p, area, "AT REST  power by current", summary, across, rangeOf(both, 1.0), "mA", "D");
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     chartCurve(draw, frame, m.powers, colour::text, p.px(1.6));
     for (const ChartPoint& one : m.powers)

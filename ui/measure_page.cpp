@@ -141,6 +141,11 @@ void currentStep(Panel& p, const MeasureView& m) {
     ImGui::Dummy({1, p.px(4)});
     if (m.state == Phase::connecting && button(p, "Measure###measureGo", "Everything is connected as it says."))
         ask(p, Measure::Step::go);
+    if (m.state == Phase::working) {  // keeps its place: a double click on "Measure" must not reach "Cancel"
+        ImGui::BeginDisabled();
+        button(p, "Measure###measureGo", "");
+        ImGui::EndDisabled();
+    }
     if (m.state == Phase::judged) {
         if (step.standing == MeasureStanding::good && button(p, "Next###measureNext", "")) ask(p, Measure::Step::next);
         if (button(p, "Again###measureAgain", "The same step once more; its outcome is forgotten."))
@@ -267,9 +272,11 @@ void measurePage(Panel& p) {
         ImGui::SameLine(0, p.px(20));
     }
     const bool typing = ImGui::GetIO().WantTextInput;
+    ImGui::PushStyleColor(ImGuiCol_FrameBg, colour::raised);  // a field's usual ground cannot be told from the page's
     ImGui::BeginChild("###measureNow", {0, 0}, false, typing ? 0 : ImGuiWindowFlags_NoNavInputs);
     now(p, m);
     ImGui::EndChild();
+    ImGui::PopStyleColor();
     ImGui::End();
     if (!p.state.panels.hidden && !p.at.sweep.empty()) measureCharts(p, m);
 }

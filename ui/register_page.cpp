@@ -113,7 +113,7 @@ void found(Panel& p, const RegisterView& r) {
                 Font::small);
     else
         text("Residual " + px(f.rms_px) + " rms, " + px(f.worst_px) +
-             (f.way == RegisterWay::scan ? " the worse axis" : " the worst"));
+             (f.way == RegisterWay::scan ? " along the worse axis" : " the worst"));
     text(std::to_string(f.points) + (f.way == RegisterWay::scan ? " pixels" : " points") + ", " + f.provenance,
          colour::dim, Font::small);
     if (!f.note.empty()) wrapped(f.note, colour::warn);
@@ -323,10 +323,12 @@ void registerPage(Panel& p) {
     ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, ImGui::GetIO().DisplaySize, colour::ground);
     beginPanel("###register", page, colour::ground, true, false);
     const bool typing = ImGui::GetIO().WantTextInput;
+    ImGui::PushStyleColor(ImGuiCol_FrameBg, colour::raised);  // a field's usual ground cannot be told from the page's
     ImGui::BeginChild("###registerNow", {static_cast<float>(columnWidth(page, p.scale)), 0}, false,
                       typing ? 0 : ImGuiWindowFlags_NoNavInputs);
     column(p, r);
     ImGui::EndChild();
+    ImGui::PopStyleColor();
     registerPicture(p, r, registerPictureArea(p.at, p.scale));
     ImGui::End();
 }

@@ -88,7 +88,7 @@ Requests studio(const View& view, State& state, const Input& input) {
     }
     if (!page) bumpBanner(p);
     debugPanel(p);
-    hints(p);
+    if (!page) hints(p);  // they are about the picture
     toasts(p);
     dialogs(p);
     return requests;

@@ -43,6 +43,7 @@ void Camera::run(std::stop_token stop) {
                 watch_.emplace(steadyNow());
             }
             onNews_();
+            (*source)->endWhen(stop);
             const Error end = play(**source, stop);
             if (stop.stop_requested()) return;
             lost(end.what);

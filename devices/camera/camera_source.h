@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "core/base/result.h"
@@ -19,6 +20,9 @@ public:
     /// Waits for the next frame. Nothing when there is none for now (a video that is held at its end); an error when
     /// the source is lost or its data is bad.
     virtual Result<std::optional<Frame>> read() = 0;
+    /// Asked before the first frame: once `stop` is requested, `read` need not finish what takes long and may give
+    /// nothing. No effect on sources that are quick.
+    virtual void endWhen(std::stop_token stop) { static_cast<void>(stop); }
     /// Exposure and white balance stay as they are (true) or follow the scene (false). Refused by sources without
     /// either.
     virtual Result<void> lockExposure(bool locked) = 0;

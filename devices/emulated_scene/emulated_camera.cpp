@@ -95,12 +95,15 @@ void EmulatedCamera::lookForWishes() {
     sinceWish_ = 0;
 }
 
-void EmulatedCamera::arrange(Size raster, bool faulty) {
+bool EmulatedCamera::arrange(Size raster, bool faulty) {
     const SceneWish wanted = geometryOf(wish_, faulty);
-    if (transport_ && arranged_ == wanted && transport_->stage().projector.size == raster) return;
-    transport_ = std::make_shared<scene::LightTransport>(wishedStage(wanted, raster, true));
+    if (transport_ && arranged_ == wanted && transport_->stage().projector.size == raster) return true;
+    auto transport = std::make_shared<scene::LightTransport>(wishedStage(wanted, raster, true), stop_);
+    if (stop_.stop_requested()) return false;
+    transport_ = std::move(transport);
     arranged_ = wanted;
     late_.clear();
+    return true;
 }
 
 void EmulatedCamera::throughLens(std::vector<float>& light) const {
@@ -143,7 +146,7 @@ Result<std::optional<Frame>> EmulatedCamera::read() {
     lookForWishes();
     const bool faulty = std::cmp_greater_equal(sinceWish_++, wish_.after);
     ShownLight shown = shown_.during(sensor_.exposure);
-    arrange(shown.raster, faulty);
+    if (!arrange(shown.raster, faulty)) return std::nullopt;
     if (faulty && wish_.wrongScreen && shown.there) putDesktop(shown.light, shown.raster);
     if (shown.there) throughLens(shown.light);
     transport_->shine(shown.light, wish_.ambientLux, lux_);

@@ -30,6 +30,8 @@ public:
     EmulatedCamera(std::filesystem::path runtimeDirectory, SceneWish wish);
 
     Result<std::optional<Frame>> read() override;
+    /// Where the light goes is worked out before the first frame, for seconds: that is given up.
+    void endWhen(std::stop_token stop) override { stop_ = std::move(stop); }
     Result<void> lockExposure(bool locked) override;
     Result<Second> setExposure(Second exposure) override;
     CameraMode mode() const override;
@@ -41,11 +43,13 @@ public:
 
 private:
     void lookForWishes();
-    void arrange(Size raster, bool faulty);
+    /// False: it was told to stop meanwhile.
+    bool arrange(Size raster, bool faulty);
     void throughLens(std::vector<float>& light) const;
     void adapt(const Image<std::uint8_t>& picture);
 
     std::filesystem::path directory_;
+    std::stop_token stop_;
     SceneWish wish_;
     std::filesystem::file_time_type wishedAt_{};
     ShownLightReader shown_;

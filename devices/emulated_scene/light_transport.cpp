@@ -139,7 +139,7 @@ struct LightTransport::Impl {
     std::vector<std::uint8_t> tint;
     SecondBounce bounce;
 
-    explicit Impl(Stage stage) : view(std::move(stage)) { look(); }
+    Impl(Stage stage, const std::stop_token& stop) : view(std::move(stage)) { look(stop); }
 
     /// All four corners of a pixel see the same, evenly.
     static bool even(const Seen& a, const Seen& b, const Seen& c, const Seen& d) {
@@ -181,12 +181,13 @@ struct LightTransport::Impl {
         }
     }
 
-    void look() {
+    void look(const std::stop_token& stop) {
         const Stage& stage = view.stage();
         const Size size = stage.camera.size;
         const auto corners = static_cast<std::size_t>(size.width) + 1;
         std::vector<Seen> grid(corners * (static_cast<std::size_t>(size.height) + 1));
         parallelFor(size.height + 1, [&](int y) {
+            if (stop.stop_requested()) return;
             Seen* row = grid.data() + static_cast<std::size_t>(y) * corners;
             for (int x = 0; x <= size.width; ++x)
                 row[x] = view.seen(x, y);
@@ -197,6 +198,7 @@ struct LightTransport::Impl {
         firstTap.assign(count + 1, 0);
         std::vector<std::vector<Tap>> rows(static_cast<std::size_t>(size.height));
         parallelFor(size.height, [&](int y) {
+            if (stop.stop_requested()) return;
             Pixel pixel(stage.projector.size);
             auto& own = rows[static_cast<std::size_t>(y)];
             for (int x = 0; x < size.width; ++x) {
@@ -211,6 +213,7 @@ struct LightTransport::Impl {
                     tint[3 * i + c] = pixel.tint(c);
             }
         });
+        if (stop.stop_requested()) return;
         for (std::size_t i = 1; i <= count; ++i)
             firstTap[i] += firstTap[i - 1];
         taps.reserve(firstTap.back());
@@ -220,7 +223,8 @@ struct LightTransport::Impl {
     }
 };
 
-LightTransport::LightTransport(Stage stage) : impl_(std::make_unique<Impl>(std::move(stage))) {}
+LightTransport::LightTransport(Stage stage, const std::stop_token& stop)
+    : impl_(std::make_unique<Impl>(std::move(stage), stop)) {}
 LightTransport::~LightTransport() = default;
 
 const Stage& LightTransport::stage() const { return impl_->view.stage(); }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "devices/emulated_scene/scene_view.h"
@@ -13,7 +14,8 @@ namespace ilf::devices::scene {
 /// Used by any thread; never changes.
 class LightTransport {
 public:
-    explicit LightTransport(Stage stage);
+    /// Seconds of rays. Where `stop` is requested meanwhile it ends at once, and what there is then is not to be used.
+    explicit LightTransport(Stage stage, const std::stop_token& stop = {});
     ~LightTransport();
     LightTransport(const LightTransport&) = delete;
     LightTransport& operator=(const LightTransport&) = delete;

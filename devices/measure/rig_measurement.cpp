@@ -148,7 +148,7 @@ StepOutcome RigMeasurement::projector() {
     StepOutcome outcome;
     outcome.good = true;
     outcome.measured =
-        text("%.3f ms after the trigger, +-%.3f ms, over %d triggers (%d missing, %d too many); confidence %s",
+        text("%.3f ms after the trigger, \u00b1 %.3f ms, over %d triggers (%d missing, %d too many); confidence %s",
              1e3 * delays->mean.si(), 1e3 * delays->delay.deviation.si(), delays->triggers, delays->missing,
              delays->extra, word(delays->confidence));
     measured_.delay = *std::move(delays);
