@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <string>
 #include <thread>
 
 #include "app/output_core/events.h"
@@ -37,13 +38,17 @@ int makeStageSafe(const CoreSetup& setup) {
     const auto stage = stageOf(setup.played, setup.runtimeDirectory);
     const auto deadline = std::chrono::steady_clock::now() + kTry;
     stage->safeLight();
+    std::string why;
     while (!safe(stage->report()) && std::chrono::steady_clock::now() < deadline) {
         if (!signals.arrived(200).empty()) break;
-        if (!stage->heartbeat()) stage->safeLight();
+        const auto well = stage->heartbeat();
+        if (well) continue;
+        why = well.error().what;
+        stage->safeLight();
     }
     const auto report = stage->report();
     if (!safe(report)) {
-        note(event::kNotSafe, report.projectorLine + "; " + report.lensLine);
+        note(event::kNotSafe, report.projectorLine + "; " + report.lensLine + (why.empty() ? "" : ": " + why));
         return 3;
     }
     unmarkStage(setup.runtimeDirectory);

@@ -14,6 +14,21 @@ void UsbPort::forgetClosed() {
                   [](const auto& entry) { return umockdev_ioctl_client_get_connected(entry.first.get()) == FALSE; });
 }
 
+/// umockdev (0.17.16) takes some programs that were killed for connected for ever. In real time a program that uses a
+/// device asks at least once a second, so one that did not for longer is dead, and a kernel would have closed its file.
+void UsbPort::takeFromSilent(const Client& wishing) {
+    if (patience.count() == 0) return;
+    constexpr std::chrono::seconds kSilent{3};
+    const auto old = std::chrono::steady_clock::now() - kSilent;
+    for (auto& [program, other] : clients) {
+        if (&other == &wishing || !other.claimed || other.heard > old) continue;
+        other.claimed = false;
+        other.urbs.clear();
+        other.asksUntil.reset();
+        other.askedFor.reset();
+    }
+}
+
 UsbPort::Fetched UsbPort::fetched(UMockdevIoctlClient* client) {
     constexpr int kLongest = 1 << 20;
     UMockdevIoctlData* arg = umockdev_ioctl_client_get_arg(client);
@@ -51,6 +66,7 @@ std::optional<Outcome> UsbPort::answer(UMockdevIoctlClient* client, Fetched fetc
         g_object_ref(client);
     }
     Client& program = entry->second;
+    program.heard = std::chrono::steady_clock::now();
     switch (request) {
     case USBDEVFS_GET_CAPABILITIES: {
         const IoctlData capabilities = resolved(arg, 0, sizeof(std::uint32_t));
@@ -111,6 +127,7 @@ std::optional<Outcome> UsbPort::answer(UMockdevIoctlClient* client, Fetched fetc
 
 Outcome UsbPort::claim(Client& client) {
     forgetClosed();
+    takeFromSilent(client);
     const bool taken = std::ranges::any_of(
         clients, [&](const auto& other) { return &other.second != &client && other.second.claimed; });
     if (taken || kernelDriver || busy) return {-1, EBUSY};

@@ -66,6 +66,7 @@ struct Urb {
 struct Client {
     std::list<Urb> urbs;
     bool claimed = false;
+    std::chrono::steady_clock::time_point heard;  ///< when it last asked for anything
     /// It asked for a transfer that is done when none was: it is answered by then, or once one is.
     std::optional<std::chrono::steady_clock::time_point> asksUntil;
     IoctlData askedFor;  ///< where it then wants it
@@ -91,6 +92,8 @@ struct UsbPort {
     std::chrono::steady_clock::time_point pulledAt;
 
     void forgetClosed();
+    /// Takes back what a program claimed that was killed in the middle of a call.
+    void takeFromSilent(const Client& wishing);
     /// What has to be read from the program's memory; to be done while nothing is locked, since the program may take
     /// its time.
     struct Fetched {
