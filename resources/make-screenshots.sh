@@ -80,7 +80,7 @@ xdotool mousedown 1 sleep 0.2 mouseup 1
 until_light slotted
 until_light steady
 xdotool mousemove 800 940
-sleep 3
+sleep 8 # the camera is opened again meanwhile
 import -window root -crop 1600x1000+0+0 +repage "$out/register.png"
 kill "$studio"
 wait "$studio" 2>/dev/null || true
