@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <variant>
 
 #include "core/track/moved_mask.h"
@@ -19,26 +17,6 @@ Look lookOf(Follow::WhenLost whenLost) {
         return Look::focus;
     }
     return Look::neutral;
-}
-
-Mask faded(const Mask& mask, double fade, const Mask* before) {
-    std::array<std::uint8_t, 256> table{};
-    for (std::size_t v = 0; v < table.size(); ++v)
-        table[v] = static_cast<std::uint8_t>(std::lround(static_cast<double>(v) * (1.0 - fade)));
-    Mask result = mask;
-    if (before != nullptr && before->size() != mask.size()) before = nullptr;
-    for (int row = 0; row < mask.rows(); ++row) {
-        for (int column = 0; column < mask.columns(); ++column) {
-            if (mask.isUniform(column, row, 0)) continue;
-            Tile tile = *mask.tile(column, row);
-            for (std::uint8_t& v : tile.v)
-                v = table[v];
-            Box<Tile> made = boxed(tile);
-            if (before != nullptr && before->tile(column, row) == made) made = before->tile(column, row);
-            result.setTile(column, row, std::move(made));
-        }
-    }
-    return result;
 }
 
 void carry(Region& region, const Motion& motion) {
@@ -78,30 +56,15 @@ Document moved(const Document& document, std::span<const RegionMotion> motions, 
         }
         Region region = *box;
         const Region* lastRegion = last(box->id);
-        const Look lostLook = lookOf(box->follow->whenLost);
-        const double fade = std::clamp(motion->fade, 0.0, 1.0);
-        const RegionId copyId = box->id + kFadedSuffix;
-        const Region* lastCopy = last(copyId);
-        const bool changesLook = lostLook != region.look || (lostLook == Look::blur && region.strength);
-        const bool between = changesLook && fade > 0.0 && fade < 1.0;
-        // While a region fades, its whole mask is the copy's.
-        const Region* lastWhole = lastCopy != nullptr ? lastCopy : lastRegion;
-        Mask mask = moved(region.mask, motion->motion, lastWhole != nullptr ? &lastWhole->mask : nullptr);
+        Mask mask = moved(region.mask, motion->motion, lastRegion != nullptr ? &lastRegion->mask : nullptr);
         if (!mask.empty() && !(mask == region.mask)) carry(region, motion->motion);
         region.mask = std::move(mask);
-        Region lost = region;
-        lost.look = lostLook;
-        lost.strength.reset();
-        if (changesLook && fade >= 1.0) {
-            result.regions.push_back(boxedAs(std::move(lost), lastRegion, boxes));
-            continue;
+        const Look lostLook = lookOf(box->follow->whenLost);
+        if (motion->fade >= kSwitchFade && (lostLook != region.look || lostLook == Look::blur)) {
+            region.look = lostLook;
+            region.strength.reset();
         }
-        if (between) region.mask = faded(region.mask, fade, lastRegion != nullptr ? &lastRegion->mask : nullptr);
         result.regions.push_back(boxedAs(std::move(region), lastRegion, boxes));
-        if (between) {
-            lost.id = copyId;
-            result.regions.push_back(boxedAs(std::move(lost), lastCopy, boxes));
-        }
     }
     return result;
 }

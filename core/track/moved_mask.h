@@ -26,14 +26,14 @@ struct RegionMotion {
 };
 
 /// The document as it is now: masks, outlines and the anchors of planes move along; a depth map does not, as it
-/// belongs to the picture. A faded region has the look of its `whenLost` (a blurred one loses its strength: the safe
-/// blur is that of the sweep's end). In between it is laid over a copy with that look, and its own coverage is
-/// 1 - fade: the compiler weighs by coverage; light goes over in one
-/// direction, though not evenly (measured: the greater part near a fade of one half). Regions that follow
+/// belongs to the picture. From kSwitchFade on a
+/// region has the look of its `whenLost` (a blurred one loses its strength: the safe blur is that of the sweep's end).
+/// That is a switch, not a mixture: the planner gives each pixel to the one region that covers half of it, so of two
+/// regions that share a pixel one would have no level and its light would fall to the base level. Regions that follow
 /// nothing, and motions of regions that are not there, are left alone. `before`: the last answer, whose tiles are
-/// shared. Ids of copies end in kFadedSuffix.
+/// shared.
 Document moved(const Document& document, std::span<const RegionMotion> motions, const Document* before = nullptr);
-inline const char* const kFadedSuffix = "~lost";
+inline constexpr double kSwitchFade = 0.5;
 
 /// Where a mask's middle is, by coverage; the picture's middle for a blank one.
 Point<CameraFrame> middleOf(const Mask& mask);
