@@ -6,9 +6,9 @@
 
 #include "projects/map_file.h"
 #include "projects/scan_folder.h"
-#include "tests/support/synthetic_scan.h"
 #include "tests/projects/folder.h"
 #include "tests/support/run_program.h"
+#include "tests/support/synthetic_scan.h"
 
 using namespace ilf;
 

@@ -15,8 +15,8 @@
 #include "core/registration/map_check.h"
 #include "core/registration/scan_diagnosis.h"
 #include "projects/pictures.h"
-#include "tests/support/synthetic_scan.h"
 #include "tests/projects/folder.h"
+#include "tests/support/synthetic_scan.h"
 #include "tests/support/test_data.h"
 
 using namespace ilf;

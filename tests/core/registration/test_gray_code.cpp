@@ -4,8 +4,8 @@
 #include <set>
 
 #include "core/registration/gray_code.h"
-#include "tests/support/synthetic_scan.h"
 #include "tests/support/law.h"
+#include "tests/support/synthetic_scan.h"
 
 using namespace ilf;
 

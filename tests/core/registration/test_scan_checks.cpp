@@ -4,8 +4,8 @@
 #include "core/registration/ambient.h"
 #include "core/registration/hole_filling.h"
 #include "core/registration/map_check.h"
-#include "tests/support/synthetic_scan.h"
 #include "tests/support/law.h"
+#include "tests/support/synthetic_scan.h"
 
 using namespace ilf;
 
