@@ -2,7 +2,6 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 
@@ -14,50 +13,12 @@
 
 #include "projects/depth_file.h"
 #include "projects/depth_formats.h"
+#include "projects/exr_memory.h"
 #include "projects/pictures.h"
 
 namespace ilf::projects {
 
 namespace {
-
-class Reading final : public Imf::IStream {
-public:
-    Reading(std::string_view bytes, const std::string& name) : Imf::IStream(name.c_str()), bytes_(bytes) {}
-    bool read(char c[], int n) override {
-        const auto count = static_cast<std::size_t>(n);
-        if (bytes_.size() - at_ < count) throw std::runtime_error("it ends too early");
-        std::memcpy(c, bytes_.data() + at_, count);
-        at_ += count;
-        return at_ < bytes_.size();
-    }
-    std::uint64_t tellg() override { return at_; }
-    void seekg(std::uint64_t position) override {
-        if (position > bytes_.size()) throw std::runtime_error("it points beyond its end");
-        at_ = static_cast<std::size_t>(position);
-    }
-
-private:
-    std::string_view bytes_;
-    std::size_t at_ = 0;
-};
-
-class Writing final : public Imf::OStream {
-public:
-    Writing() : Imf::OStream("EXR") {}
-    void write(const char c[], int n) override {
-        const auto count = static_cast<std::size_t>(n);
-        if (at_ + count > bytes.size()) bytes.resize(at_ + count);
-        bytes.replace(at_, count, c, count);
-        at_ += count;
-    }
-    std::uint64_t tellp() override { return at_; }
-    void seekp(std::uint64_t position) override { at_ = static_cast<std::size_t>(position); }
-
-    std::string bytes;
-
-private:
-    std::size_t at_ = 0;
-};
 
 constexpr const char* kSigma = "sigma";
 
@@ -87,7 +48,7 @@ bool looksLikeExr(std::string_view bytes) { return bytes.starts_with("\x76\x2f\x
 
 Result<DepthPixels> decodeDepthExr(std::string_view bytes, const std::string& name) {
     try {
-        Reading stream(bytes, name);
+        ExrReading stream(bytes, name);
         Imf::InputFile file(stream, 0);
         const auto& channels = file.header().channels();
         const std::string channel = depthChannel(channels);
@@ -131,7 +92,7 @@ Result<std::string> encodeDepthExr(const Image<float>& metres, const Image<float
         };
         add("Z", metres);
         if (sigma.size() == metres.size() && !sigma.empty()) add(kSigma, sigma);
-        Writing stream;
+        ExrBytes stream;
         {
             Imf::OutputFile file(stream, header);
             file.setFrameBuffer(frame);

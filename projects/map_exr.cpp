@@ -1,7 +1,6 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfInputPart.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfMultiPartInputFile.h>
@@ -18,6 +17,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "projects/exr_memory.h"
 #include "projects/map_formats.h"
 #include "projects/pictures.h"
 
@@ -28,41 +28,6 @@ const char* const kForth = "projector_of_camera";
 const char* const kBack = "camera_of_projector";
 const char* const kPlane = "projector_from_camera";
 const std::string kFact = "fact:";  ///< before the keys of facts: the library's own attributes are texts as well
-
-class Out final : public Imf::OStream {
-public:
-    Out() : Imf::OStream("map") {}
-    void write(const char c[], int n) override {
-        const auto count = static_cast<std::size_t>(n);
-        if (at_ + count > bytes.size()) bytes.resize(at_ + count);
-        bytes.replace(at_, count, c, count);
-        at_ += count;
-    }
-    std::uint64_t tellp() override { return at_; }
-    void seekp(std::uint64_t position) override { at_ = static_cast<std::size_t>(position); }
-    std::string bytes;
-
-private:
-    std::size_t at_ = 0;
-};
-
-class In final : public Imf::IStream {
-public:
-    explicit In(std::string_view bytes) : Imf::IStream("map"), bytes_(bytes) {}
-    bool read(char c[], int n) override {
-        const auto count = static_cast<std::size_t>(n);
-        if (n < 0 || at_ > bytes_.size() || bytes_.size() - at_ < count) throw std::runtime_error("it ends too early");
-        std::memcpy(c, bytes_.data() + at_, count);
-        at_ += count;
-        return at_ < bytes_.size();
-    }
-    std::uint64_t tellg() override { return at_; }
-    void seekg(std::uint64_t position) override { at_ = static_cast<std::size_t>(position); }
-
-private:
-    std::string_view bytes_;
-    std::size_t at_ = 0;
-};
 
 Imf::Header headerOf(const char* name, Size size, const char* mark, const DenseMap& map, const MapFacts& facts) {
     Imf::Header header(size.width, size.height);
@@ -139,7 +104,7 @@ Result<std::string> mapAsExr(const DenseMap& map, const MapFacts& facts) {
     try {
         const std::vector<Imf::Header> headers{headerOf(kForth, map.camera(), "confidence", map, facts),
                                                headerOf(kBack, map.projector(), "seen", map, facts)};
-        Out stream;
+        ExrBytes stream;
         {
             Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(headers.size()), true);
             writePart(file, 0, map.projectorOfCamera, map.confidence, "confidence");
@@ -153,7 +118,7 @@ Result<std::string> mapAsExr(const DenseMap& map, const MapFacts& facts) {
 
 Result<MapFile> mapFromExr(std::string_view bytes, const std::string& name) {
     try {
-        In stream(bytes);
+        ExrReading stream(bytes, "map");
         Imf::MultiPartInputFile file(stream);
         MapFile result;
         DenseMap& map = result.map;

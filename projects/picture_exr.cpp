@@ -4,7 +4,6 @@
 #include <ImfChromaticities.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
@@ -15,27 +14,10 @@
 #include <exception>
 #include <vector>
 
+#include "projects/exr_memory.h"
+
 namespace ilf::projects {
 namespace {
-
-/// A file in memory, so that it can be put in place as a whole.
-class Bytes final : public Imf::OStream {
-public:
-    Bytes() : Imf::OStream("EXR") {}
-    void write(const char c[], int n) override {
-        const auto count = static_cast<std::size_t>(n);
-        if (at_ + count > bytes.size()) bytes.resize(at_ + count);
-        bytes.replace(at_, count, c, count);
-        at_ += count;
-    }
-    std::uint64_t tellp() override { return at_; }
-    void seekp(std::uint64_t position) override { at_ = static_cast<std::size_t>(position); }
-
-    std::string bytes;
-
-private:
-    std::size_t at_ = 0;
-};
 
 std::vector<const char*> channelsOf(int count) { return count == 3 ? std::vector{"R", "G", "B"} : std::vector{"Y"}; }
 
@@ -60,7 +42,7 @@ std::string written(const Imf::Header& header, Imf::PixelType type, const T* pix
         auto* base = reinterpret_cast<char*>(const_cast<T*>(pixels + c));
         frame.insert(channelsOf(channels)[static_cast<std::size_t>(c)], Imf::Slice(type, base, column, row));
     }
-    Bytes stream;
+    ExrBytes stream;
     {
         Imf::OutputFile file(stream, header);
         file.setFrameBuffer(frame);
