@@ -1,42 +1,16 @@
 #include "projects/calibration_json.h"
-
-#include <algorithm>
-
 #include "core/registration/calibrate.h"
+#include "projects/pinhole_json.h"
 
 namespace ilf::projects {
+
 namespace {
-
-Json written(const Pinhole& pinhole, Json json) {
-    json.set("width_px", pinhole.size.width);
-    json.set("height_px", pinhole.size.height);
-    json.set("fx_px", pinhole.fx);
-    json.set("fy_px", pinhole.fy);
-    json.set("cx_px", pinhole.cx);
-    json.set("cy_px", pinhole.cy);
-    json.set("distortion", std::vector<double>(pinhole.distortion.begin(), pinhole.distortion.end()));
-    return json;
+const std::string kUnit = "_px";
 }
-
-Pinhole pinholeFrom(JsonReader reader) {
-    Pinhole pinhole;
-    pinhole.size = {reader.whole("width_px"), reader.whole("height_px")};
-    pinhole.fx = reader.number("fx_px"), pinhole.fy = reader.number("fy_px");
-    pinhole.cx = reader.number("cx_px"), pinhole.cy = reader.number("cy_px");
-    std::ranges::copy(reader.numbers("distortion", 5), pinhole.distortion.begin());
-    return pinhole;
-}
-
-}  // namespace
-
 Json written(const ProcamCalibration& calibration, Json json) {
-    json.set("camera", written(calibration.camera, json.object("camera")));
-    json.set("projector", written(calibration.projector, json.object("projector")));
-    Json pose = json.object("projector_from_camera");
-    const auto& [rotation, translation] = calibration.projectorFromCamera;
-    pose.set("rotation", std::vector<double>(rotation.begin(), rotation.end()));
-    pose.set("translation_m", std::vector<double>(translation.begin(), translation.end()));
-    json.set("projector_from_camera", pose);
+    json.set("camera", written(calibration.camera, kUnit, json.object("camera")));
+    json.set("projector", written(calibration.projector, kUnit, json.object("projector")));
+    json.set("projector_from_camera", written(calibration.projectorFromCamera, json.object("projector_from_camera")));
     json.set("camera_rms_px", calibration.cameraRms_px);
     json.set("projector_rms_px", calibration.projectorRms_px);
     json.set("poses", calibration.poses);
@@ -48,11 +22,10 @@ Json written(const ProcamCalibration& calibration, Json json) {
 
 ProcamCalibration procamCalibrationFrom(JsonReader reader) {
     ProcamCalibration c;
-    c.camera = pinholeFrom(reader.object("camera"));
-    c.projector = pinholeFrom(reader.object("projector"));
+    c.camera = pinholeFrom(reader.object("camera"), kUnit);
+    c.projector = pinholeFrom(reader.object("projector"), kUnit);
     JsonReader pose = reader.object("projector_from_camera");
-    std::ranges::copy(pose.numbers("rotation", 9), c.projectorFromCamera.rotation.begin());
-    std::ranges::copy(pose.numbers("translation_m", 3), c.projectorFromCamera.translation.begin());
+    c.projectorFromCamera = poseFrom<ProjectorSpace, CameraSpace>(pose);
     c.cameraRms_px = reader.number("camera_rms_px");
     c.projectorRms_px = reader.number("projector_rms_px");
     c.poses = reader.whole("poses");

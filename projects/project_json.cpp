@@ -1,10 +1,10 @@
 #include "projects/project_json.h"
 
-#include <algorithm>
 #include <set>
 #include <utility>
 
 #include "projects/follow_json.h"
+#include "projects/pinhole_json.h"
 
 namespace ilf::projects {
 namespace {
@@ -145,34 +145,11 @@ Region regionFrom(JsonReader& reader) {
     return region;
 }
 
-Json written(const Pinhole& camera, Json json) {
-    json.set("width", camera.size.width);
-    json.set("height", camera.size.height);
-    json.set("fx", camera.fx);
-    json.set("fy", camera.fy);
-    json.set("cx", camera.cx);
-    json.set("cy", camera.cy);
-    json.set("distortion", std::vector<double>(camera.distortion.begin(), camera.distortion.end()));
-    return json;
-}
-
-Pinhole pinholeFrom(JsonReader reader) {
-    Pinhole camera;
-    camera.size = {reader.whole("width"), reader.whole("height")};
-    camera.fx = reader.number("fx");
-    camera.fy = reader.number("fy");
-    camera.cx = reader.number("cx");
-    camera.cy = reader.number("cy");
-    const std::vector<double> distortion = reader.numbers("distortion", camera.distortion.size());
-    std::copy_n(distortion.begin(), std::min(distortion.size(), camera.distortion.size()), camera.distortion.begin());
-    return camera;
-}
-
 /// What a measured depth is, besides its pixels.
 Json described(const MeasuredDepth& measured, Json json) {
     json.set("source", measured.source);
     json.set("provenance", measured.provenance);
-    json.set("camera_px", written(measured.camera, json.object("camera_px")));
+    json.set("camera_px", written(measured.camera, "", json.object("camera_px")));
     return json;
 }
 
@@ -180,14 +157,12 @@ MeasuredDepth describedBy(JsonReader& reader) {
     MeasuredDepth measured;
     measured.source = reader.word("source", "");
     measured.provenance = reader.word("provenance", "");
-    measured.camera = pinholeFrom(reader.object("camera_px"));
+    measured.camera = pinholeFrom(reader.object("camera_px"), "");
     return measured;
 }
 
-Json written(const ViewerPose& viewer, Json json) {
-    const auto& pose = viewer.viewerFromCamera;
-    json.set("rotation", std::vector<double>(pose.rotation.begin(), pose.rotation.end()));
-    json.set("translation_m", std::vector<double>(pose.translation.begin(), pose.translation.end()));
+Json written(const ViewerPose& viewer, Json before) {
+    Json json = written(viewer.viewerFromCamera, std::move(before));
     json.set("sigma_m", viewer.sigma.si());
     json.set("source", viewer.source);
     return json;
@@ -195,11 +170,7 @@ Json written(const ViewerPose& viewer, Json json) {
 
 ViewerPose viewerFrom(JsonReader reader) {
     ViewerPose viewer;
-    auto& pose = viewer.viewerFromCamera;
-    const std::vector<double> rotation = reader.numbers("rotation", pose.rotation.size());
-    const std::vector<double> translation = reader.numbers("translation_m", pose.translation.size());
-    std::copy_n(rotation.begin(), std::min(rotation.size(), pose.rotation.size()), pose.rotation.begin());
-    std::copy_n(translation.begin(), std::min(translation.size(), pose.translation.size()), pose.translation.begin());
+    viewer.viewerFromCamera = poseFrom<ViewerSpace, CameraSpace>(reader);
     viewer.sigma = Metre::fromSi(reader.number("sigma_m", 0.0));
     viewer.source = reader.word("source", "typed");
     return viewer;
