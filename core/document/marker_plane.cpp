@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/aruco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -10,6 +9,8 @@
 #include "core/document/plane_anchors.h"
 #include "core/document/plane_fit.h"
 #include "core/document/wearer_distances.h"
+#include "core/track/grey.h"
+#include "core/track/marker.h"
 
 namespace ilf {
 
@@ -19,73 +20,28 @@ constexpr double kLeastCorner_px = 0.1;  // what sub-pixel refinement of a sharp
 constexpr double kFewestPixels = 16.0;   // along a marker's side
 constexpr double kSteepest_deg = 80.0;   // of the line of sight against the surface's normal
 
-std::optional<cv::Ptr<cv::aruco::Dictionary>> dictionaryOf(const std::string& name) {
-    using namespace cv::aruco;
-    static const std::array<std::pair<const char*, PREDEFINED_DICTIONARY_NAME>, 10> kKnown{{
-        {"APRILTAG_36h11", DICT_APRILTAG_36h11},
-        {"APRILTAG_36h10", DICT_APRILTAG_36h10},
-        {"APRILTAG_25h9", DICT_APRILTAG_25h9},
-        {"APRILTAG_16h5", DICT_APRILTAG_16h5},
-        {"ARUCO_ORIGINAL", DICT_ARUCO_ORIGINAL},
-        {"4X4_50", DICT_4X4_50},
-        {"5X5_100", DICT_5X5_100},
-        {"6X6_250", DICT_6X6_250},
-        {"6X6_50", DICT_6X6_50},
-        {"7X7_1000", DICT_7X7_1000},
-    }};
-    for (const auto& [known, which] : kKnown) {
-        if (name == known) return getPredefinedDictionary(which);
-    }
-    return std::nullopt;
-}
-
-cv::Mat1b greyOf(const Picture& picture) {
-    cv::Mat1b grey(picture.height(), picture.width());
-    const int channels = picture.channels();
-    for (int y = 0; y < grey.rows; ++y) {
-        const std::uint16_t* p = picture.row(y);
-        std::uint8_t* to = grey[y];
-        for (int x = 0; x < grey.cols; ++x, p += channels) {
-            const unsigned sum = channels >= 3 ? (54U * p[0] + 183U * p[1] + 19U * p[2]) / 256U : p[0];
-            to[x] = static_cast<std::uint8_t>(sum / 257U);
-        }
-    }
-    return grey;
-}
-
-using Corners = std::vector<cv::Point2f>;
+using Corners = std::vector<cv::Point2f>;  // OpenCV's: a pixel's centre is whole
 
 Result<Corners> cornersOf(const Picture& picture, const SurfaceMarker& marker) {
-    const auto dictionary = dictionaryOf(marker.dictionary);
-    if (!dictionary) {
-        return fail(Fault::unsupported, "There is no marker dictionary \"" + marker.dictionary +
-                                            "\": use APRILTAG_36h11, 4X4_50, 5X5_100, 6X6_250 or another of OpenCV's.");
-    }
-    std::vector<Corners> corners;
-    std::vector<int> ids;
-    const cv::Mat1b grey = greyOf(picture);
-    cv::aruco::detectMarkers(grey, *dictionary, corners, ids);
+    const auto found = findMarkers(greyOf(picture), {marker.dictionary, {marker.id}, {}, 1});
+    if (!found) return tl::unexpected(found.error());
     const std::string name = "Marker " + std::to_string(marker.id) + " of " + marker.dictionary;
-    const auto count = std::ranges::count(ids, marker.id);
-    if (count == 0) {
+    if (found->empty()) {
         return fail(Fault::notFound, name + " is not in the picture: lay it flat on the surface, all four corners and "
                                             "a white rim visible, and grab again.");
     }
-    if (count > 1) {
-        return fail(Fault::outOfRange, name + " is in the picture " + std::to_string(count) + " times: leave one.");
+    if (found->size() > 1) {
+        return fail(Fault::outOfRange,
+                    name + " is in the picture " + std::to_string(found->size()) + " times: leave one.");
     }
-    Corners found = corners[static_cast<std::size_t>(std::ranges::find(ids, marker.id) - ids.begin())];
-    const double side_px = std::sqrt(cv::contourArea(found));
-    if (side_px < kFewestPixels) {
+    Corners corners;
+    for (const Point<CameraFrame>& corner : found->front().corners)
+        corners.emplace_back(static_cast<float>(corner.x - 0.5), static_cast<float>(corner.y - 0.5));
+    if (std::sqrt(cv::contourArea(corners)) < kFewestPixels) {
         return fail(Fault::outOfRange, name + " is less than 16 px wide in the picture, too little for a slope: print "
                                               "it larger, or move the camera nearer.");
     }
-    // Within the marker's own black rim, so that its pattern does not pull the corners.
-    const double cells = (*dictionary)->markerSize + 2.0;
-    const int reach = std::clamp(static_cast<int>(0.7 * side_px / cells), 1, 8);
-    cv::cornerSubPix(grey, found, {reach, reach}, {-1, -1},
-                     {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 0.005});
-    return found;
+    return corners;
 }
 
 /// The surface in the camera's space: every point p on it has normal . p = offset.
