@@ -1,4 +1,5 @@
 #include "projects/calibration_json.h"
+
 #include "core/registration/calibrate.h"
 #include "projects/pinhole_json.h"
 
