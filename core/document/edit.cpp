@@ -15,7 +15,7 @@ struct Overloaded : Cases... {
     using Cases::operator()...;
 };
 
-std::string quoted(const Region& region) { return "\"" + region.name + "\""; }
+std::string inQuotes(const Region& region) { return "\"" + region.name + "\""; }
 
 tl::unexpected<Error> noSuchRegion(const RegionId& id) {
     return fail(Fault::notFound, "There is no region \"" + id + "\": it may have been deleted.");
@@ -25,7 +25,7 @@ tl::unexpected<Error> notTheBackground(const std::string& what) {
 }
 Result<void> unlocked(const Region& region) {
     if (!region.locked) return {};
-    return fail(Fault::outOfRange, quoted(region) + " is locked: unlock it to change it.");
+    return fail(Fault::outOfRange, inQuotes(region) + " is locked: unlock it to change it.");
 }
 
 /// Where the region lies in the list, or nothing.
@@ -87,9 +87,9 @@ Result<void> checkedStrength(const std::optional<Dioptre>& strength) {
 
 /// A distance as it may lie on `region` of this document.
 Result<void> checkedOn(const Document& document, const Region& region) {
-    if (auto ok = checked(region.distance, "the distance of " + quoted(region)); !ok) return ok;
+    if (auto ok = checked(region.distance, "the distance of " + inQuotes(region)); !ok) return ok;
     if (std::holds_alternative<FromDepthMap>(region.distance) && !document.scene.depth) {
-        return fail(Fault::notFound, "There is no depth map to read the distance of " + quoted(region) +
+        return fail(Fault::notFound, "There is no depth map to read the distance of " + inQuotes(region) +
                                          " from: load one, or type the distance.");
     }
     if (auto surface = affineVergence(region); !surface) return tl::unexpected(surface.error());

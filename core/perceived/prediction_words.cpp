@@ -61,7 +61,7 @@ std::string blurredTo(const RegionPrediction& seen) {
 
 std::string whatIsAttended(const Plan& plan) {
     const RegionPlan* attended = attendedRegion(plan);
-    return attended != nullptr ? "looks at " + quoted(attended->name) : "looks elsewhere";
+    return attended != nullptr ? "looks at " + inQuotes(attended->name) : "looks elsewhere";
 }
 
 /// Height of the smallest letters that may be read by who looks straight at it, the pupil as small as it may be.

@@ -68,7 +68,7 @@ void addMovedDriver(const Plan& now, std::vector<std::string>& help) {
     object->nearest = to;
     const auto then = replanned(moved);
     if (!worthSaying(now, then) || !then->pS) return;
-    help.push_back("Move " + quoted(driver->name) + nearestPoint(*driver) + " from " + inWords(driver->nearest) +
+    help.push_back("Move " + inQuotes(driver->name) + nearestPoint(*driver) + " from " + inWords(driver->nearest) +
                    " to " + inWords(to) + ": P_s falls from " + inWords(*now.pS) + " to " + inWords(*then->pS) + ", " +
                    gain(now, *then) + ".");
 }
@@ -136,9 +136,9 @@ std::string whyThisSweep(const Plan& plan) {
     const RegionPlan* driver = driverOf(plan);
     if (driver == nullptr) return to + " because that is where focused objects are sharp.";
     if (plan.waveform.high > *plan.pS + plan.alpha + 1e-6_D)
-        return to + " because a strength or a focused object asks for it; " + quoted(driver->name) + " at " +
+        return to + " because a strength or a focused object asks for it; " + inQuotes(driver->name) + " at " +
                inWords(driver->nearest) + " alone would need " + inWords(*plan.pS) + " + alpha.";
-    return to + " because " + quoted(driver->name) + ", the nearest that can be blurred" +
+    return to + " because " + inQuotes(driver->name) + ", the nearest that can be blurred" +
            (driver->nearest == driver->farthest ? ", at " : ", its nearest point at ") + inWords(driver->nearest) +
            ", needs P_s = " + inWords(*plan.pS) + ", and alpha adds " + inWords(plan.alpha) + ".";
 }

@@ -89,9 +89,9 @@ void addAmbientNotes(const Plan& plan, std::vector<PlanNote>& notes) {
     const double light = litIlluminance(plan), ambient = plan.input.rig.room.ambient_lx, ratio = ambient / light;
     PlanNote note{NoteTopic::ambient, ratio > 0.1, {}, kAmbientModel};
     note.text = "Ambient " + inWords(ambient, 0) + " lx against " + inWords(light, 0) +
-                " lx in lit regions: print in " + quoted(worst->name) + " keeps " + percent(most) + " contrast";
+                " lx in lit regions: print in " + inQuotes(worst->name) + " keeps " + percent(most) + " contrast";
     if (sharpest != nullptr)
-        note.text += ", in " + quoted(sharpest->name) + " " + percent(contrastLeft(plan, *sharpest).ambient);
+        note.text += ", in " + inQuotes(sharpest->name) + " " + percent(contrastLeft(plan, *sharpest).ambient);
     note.text += ratio > 0.5 ? ". Blurred print can be read; darken the room."
                  : ratio > 0.1
                      ? ". Fine print is partly readable in blurred areas; darken the room or light a smaller area."
@@ -111,7 +111,7 @@ void addAmbientNotes(const Plan& plan, std::vector<PlanNote>& notes) {
                        inWords(ambientFor(plan, *worst, kHidesPrint), 0) +
                        " lx of ambient light. People without glasses read all of it.";
     } else {
-        privacy.text = "No privacy: " + quoted(worst->name) + " keeps " + percent(dark) +
+        privacy.text = "No privacy: " + inQuotes(worst->name) + " keeps " + percent(dark) +
                        " contrast even in a dark room. Give it more strength. People without glasses read all of it.";
     }
     notes.push_back(std::move(privacy));

@@ -103,14 +103,14 @@ void explainTooFast(const Draft& draft, std::size_t level, std::size_t replaceme
         RegionPlan& region = plan.regions[i];
         if (region.look == Look::neutral || draft.ofRegion[i] != level || !region.problem.empty()) continue;
         if (region.look == Look::focus) {
-            region.problem = quoted(region.name) + " needs light at " + at +
+            region.problem = inQuotes(region.name) + " needs light at " + at +
                              ", in the middle of the sweep, where the lens "
                              "is too fast for one slot: it is lit at " +
                              instead + " and not sharp.";
             region.help = "Put it nearer to the other focused objects, use a projector with shorter slots, or a shaped "
                           "wave that holds this level.";
         } else {
-            region.problem = quoted(region.name) + " needs light at " + at +
+            region.problem = inQuotes(region.name) + " needs light at " + at +
                              ", in the middle of the sweep, where the lens "
                              "is too fast for one slot: it is lit at " +
                              instead + " and blurred more than asked.";
@@ -126,7 +126,7 @@ tl::unexpected<Error> tooFast(const Draft& draft, std::size_t level, const Plan&
     const bool named = lit != draft.ofRegion.end() && plan.input.camera;
     std::string what = "The plan needs light at ";
     if (named) {
-        what = quoted(plan.regions[static_cast<std::size_t>(lit - draft.ofRegion.begin())].name) +
+        what = inQuotes(plan.regions[static_cast<std::size_t>(lit - draft.ofRegion.begin())].name) +
                (draft.wishes[level].kind == LevelKind::focus ? " is in focus for the camera at "
                                                              : " is to be blurred for the camera at ");
     }
@@ -212,7 +212,7 @@ void describeRegions(Plan& plan, const Draft& draft) {
         region.scale = magnification(eye, region.nearest, plan.focusPower, region.levelPower);
         if (region.look == Look::blur && region.problem.empty() && region.pMin &&
             leastLitPower(plan, region) <= *region.pMin) {
-            region.problem = quoted(region.name) + " is lit no farther than its border of blur, " +
+            region.problem = inQuotes(region.name) + " is lit no farther than its border of blur, " +
                              inWords(*region.pMin) + ", and may look sharp.";
             region.help = "Raise alpha.";
         }
@@ -236,13 +236,13 @@ std::string whoAsksFor(const Plan& plan, Dioptre high, const std::vector<BlurWis
     for (std::size_t i = 0; i < blurs.size(); ++i) {
         if (blurs[i].power != high) continue;
         const Dioptre left = choice.reachable - *plan.regions[i].pMin;
-        return reaches + ", and the strength of " + quoted(plan.regions[i].name) + " asks for " + inWords(high) +
+        return reaches + ", and the strength of " + inQuotes(plan.regions[i].name) + " asks for " + inWords(high) +
                (left > 0.0_D ? ": lower it to " + inWords(left) + "." : ": lower it, or move it away.");
     }
     if (focus.powers.back() == high) {
         for (std::size_t i = 0; i < plan.regions.size(); ++i) {
             if (plan.regions[i].look != Look::focus || focus.powers[focus.ofObject[i]] != high) continue;
-            return reaches + ", and " + quoted(plan.regions[i].name) + " is sharp at " + inWords(high) +
+            return reaches + ", and " + inQuotes(plan.regions[i].name) + " is sharp at " + inWords(high) +
                    ": move it away, or do not focus it.";
         }
         return reaches + ".";
@@ -250,7 +250,7 @@ std::string whoAsksFor(const Plan& plan, Dioptre high, const std::vector<BlurWis
     const auto driver = std::ranges::find_if(plan.regions, [&](const RegionPlan& r) { return plan.driver == r.id; });
     if (driver == plan.regions.end()) return reaches + ".";
     const Dioptre most = choice.reachable - plan.farOffset;
-    return "The largest P_s this lens reaches here is " + inWords(choice.reachable) + ", and " + quoted(driver->name) +
+    return "The largest P_s this lens reaches here is " + inWords(choice.reachable) + ", and " + inQuotes(driver->name) +
            " asks for " + inWords(*plan.pS) +
            (most > 0.0_D ? ": move it beyond " + inWordsRoundedUp(1.0 / most) + "." : ".");
 }

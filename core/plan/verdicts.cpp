@@ -38,7 +38,7 @@ std::string lensReach(const Rig& rig) {
 }
 
 void cannotFocus(RegionPlan& region, std::string why, std::string help) {
-    region.problem = quoted(region.name) + " cannot be seen sharp" + why;
+    region.problem = inQuotes(region.name) + " cannot be seen sharp" + why;
     region.help = std::move(help);
 }
 
@@ -78,11 +78,11 @@ Result<void> checkedInput(const PlanInput& input) {
     for (const PlanObject& object : input.objects) {
         if (!isFinite(object.nearest) || !isFinite(object.farthest) || object.nearest <= 0.0_m ||
             object.farthest < object.nearest) {
-            return fail(Fault::outOfRange, "The distance of " + quoted(object.name) +
+            return fail(Fault::outOfRange, "The distance of " + inQuotes(object.name) +
                                                " must be more than 0 m, counted from the wearer's lens.");
         }
         if (object.strength && (!isFinite(*object.strength) || *object.strength <= 0.0_D)) {
-            return fail(Fault::outOfRange, "The blur strength of " + quoted(object.name) + " must be more than 0 D.");
+            return fail(Fault::outOfRange, "The blur strength of " + inQuotes(object.name) + " must be more than 0 D.");
         }
     }
     if (!isFinite(input.alpha) || input.alpha < 0.0_D) {
@@ -158,7 +158,7 @@ BlurWish blurWish(const PlanInput& input, const PlanObject& object, Dioptre focu
         if (region.alreadyBlurred) return {};
         const Dioptre needed = object.strength ? margin : 0.0_D;
         const Dioptre room = input.rig.lensMax - needed - farBorderOffset(input.eye).power;
-        region.problem = quoted(object.name) + " cannot be blurred at " + inWords(object.nearest) + ": it would take " +
+        region.problem = inQuotes(object.name) + " cannot be blurred at " + inWords(object.nearest) + ": it would take " +
                          inWords(*pMin + needed) + ", and " + lensReach(input.rig) + ".";
         region.help = room > 0.0_D ? "Move it beyond " + inWordsRoundedUp(1.0 / room) + "." : "Lower alpha.";
         if (object.strength && *object.strength > input.alpha && *pMin + input.alpha <= input.rig.lensMax) {

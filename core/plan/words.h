@@ -28,6 +28,6 @@ inline std::string inWords(Metre distance) { return inWords(distance.si(), 3) + 
 inline std::string inWordsRoundedUp(Metre distance) {
     return inWords(Metre::fromSi(std::ceil(distance.in(1.0_mm)) * 1e-3));
 }
-inline std::string quoted(const std::string& name) { return '"' + name + '"'; }
+inline std::string inQuotes(const std::string& name) { return '"' + name + '"'; }
 
 }  // namespace ilf

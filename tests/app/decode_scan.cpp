@@ -17,7 +17,7 @@ namespace {
 Ran decodeScan(const std::string& arguments) {
     return runProgram(ILF_STUDIO_PATH, "decode-scan " + arguments + " 2>&1");
 }
-std::string quoted(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
+std::string inQuotes(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 SyntheticCamera desk() {
@@ -33,8 +33,8 @@ TEST_CASE("decode-scan: a folder becomes a map of either kind, and a quality pic
     const Folder folder;
     REQUIRE(projects::writeScan(folder / "scan", scanned(desk())));
     for (const char* name : {"map.yml", "map.exr"}) {
-        const Ran ran = decodeScan(quoted(folder / "scan") + " -o " + quoted(folder / name) + " --quality " +
-                                   quoted(folder / "quality.png"));
+        const Ran ran = decodeScan(inQuotes(folder / "scan") + " -o " + inQuotes(folder / name) + " --quality " +
+                                   inQuotes(folder / "quality.png"));
         CHECK_MESSAGE(ran.code == 0, ran.out);
         CHECK(contains(ran.out, "Written, read back and checked"));
         const auto map = projects::readMap(folder / name);
@@ -49,7 +49,7 @@ TEST_CASE("decode-scan: a folder becomes a map of either kind, and a quality pic
 TEST_CASE("decode-scan: --json says the same for programs") {
     const Folder folder;
     REQUIRE(projects::writeScan(folder / "scan", scanned(desk())));
-    const Ran ran = decodeScan(quoted(folder / "scan") + " -o " + quoted(folder / "map.yml") + " --json");
+    const Ran ran = decodeScan(inQuotes(folder / "scan") + " -o " + inQuotes(folder / "map.yml") + " --json");
     REQUIRE_MESSAGE(ran.code == 0, ran.out);
     const auto json = nlohmann::json::parse(ran.out);
     CHECK(json["ok"] == true);
@@ -66,8 +66,8 @@ TEST_CASE("decode-scan: a bad scan names its cause, shows where, writes no map a
     for (std::size_t i = scan.pictures.size() - 1; i > 0; --i)
         scan.pictures[i] = scan.pictures[i - 1];
     REQUIRE(projects::writeScan(folder / "scan", scan));
-    const Ran ran = decodeScan(quoted(folder / "scan") + " -o " + quoted(folder / "map.yml") + " --quality " +
-                               quoted(folder / "quality.png"));
+    const Ran ran = decodeScan(inQuotes(folder / "scan") + " -o " + inQuotes(folder / "map.yml") + " --quality " +
+                               inQuotes(folder / "quality.png"));
     CHECK(ran.code == 1);
     CHECK(contains(ran.out, "failure: Each picture shows the pattern before its own"));
     CHECK(!std::filesystem::exists(folder / "map.yml"));
@@ -77,12 +77,12 @@ TEST_CASE("decode-scan: a bad scan names its cause, shows where, writes no map a
 TEST_CASE("decode-scan: usage is refused with 2, a missing folder and a disk that cannot be written with 1") {
     const Folder folder;
     REQUIRE(projects::writeScan(folder / "scan", scanned(desk())));
-    const std::string scan = quoted(folder / "scan");
+    const std::string scan = inQuotes(folder / "scan");
     CHECK(decodeScan(scan).code == 2);
-    CHECK(decodeScan(scan + " -o " + quoted(folder / "map.png")).code == 2);
-    CHECK(decodeScan(scan + " -o " + quoted(folder / "map.yml") + " --projector wide").code == 2);
-    const Ran gone = decodeScan(quoted(folder / "gone") + " -o " + quoted(folder / "map.yml"));
+    CHECK(decodeScan(scan + " -o " + inQuotes(folder / "map.png")).code == 2);
+    CHECK(decodeScan(scan + " -o " + inQuotes(folder / "map.yml") + " --projector wide").code == 2);
+    const Ran gone = decodeScan(inQuotes(folder / "gone") + " -o " + inQuotes(folder / "map.yml"));
     CHECK(gone.code == 1);
     CHECK(contains(gone.out, "is not a folder"));
-    CHECK(decodeScan(scan + " -o " + quoted(folder / "no" / "folder" / "map.yml")).code == 1);
+    CHECK(decodeScan(scan + " -o " + inQuotes(folder / "no" / "folder" / "map.yml")).code == 1);
 }

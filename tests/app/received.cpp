@@ -1,5 +1,5 @@
 // What `run --rig emulated` makes of what was received: compared with the intention, and seen by the wearer. Without a
-// rig: tests/app/run_emulated.cpp is the whole of it.
+// rig: tests/app/emulated/run_emulated.cpp is the whole of it.
 #include <doctest/doctest.h>
 
 #include <utility>

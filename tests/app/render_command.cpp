@@ -19,7 +19,7 @@ Ran render(const std::string& arguments) { return runProgram(ILF_STUDIO_PATH, "r
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-std::string quoted(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
+std::string inQuotes(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
 
 const std::string kDesk = "'" + kSamples + "study-desk.ilfd'", kObjects = "'" + kSamples + "four-objects.ilfd'";
 
@@ -27,11 +27,11 @@ const std::string kDesk = "'" + kSamples + "study-desk.ilfd'", kObjects = "'" + 
 
 TEST_CASE("render: usage is refused with exit code 2, a sentence, and no file") {
     const Folder folder;
-    const std::string out = " -o " + quoted(folder / "a.png");
+    const std::string out = " -o " + inQuotes(folder / "a.png");
     for (const std::string& wrong : {
              kDesk,
-             kDesk + " -o " + quoted(folder / "a.jpg"),
-             kDesk + " -o " + quoted(folder / "a"),
+             kDesk + " -o " + inQuotes(folder / "a.jpg"),
+             kDesk + " -o " + inQuotes(folder / "a"),
              kDesk + " --view depth" + out,
              kDesk + " --view slot:99" + out,
              kDesk + " --eye third" + out,
@@ -42,8 +42,8 @@ TEST_CASE("render: usage is refused with exit code 2, a sentence, and no file") 
              kDesk + " --samples 1 --reference" + out,
              kDesk + " " + kObjects + out,
              kDesk + " --format exr" + out,
-             kDesk + " --format bmp --out-dir " + quoted(folder / "d"),
-             kDesk + out + " --out-dir " + quoted(folder / "d"),
+             kDesk + " --format bmp --out-dir " + inQuotes(folder / "d"),
+             kDesk + out + " --out-dir " + inQuotes(folder / "d"),
          }) {
         const Ran ran = render(wrong);
         CHECK_MESSAGE(ran.code == 2, wrong);
@@ -55,7 +55,7 @@ TEST_CASE("render: usage is refused with exit code 2, a sentence, and no file") 
 TEST_CASE("render: both eyes and the picture with marks, each in the format its name asks for") {
     const Folder folder;
     const Ran ran =
-        render(kObjects + " --views perceived,overlay --eye both --scale 0.2 -o " + quoted(folder / "o.tif"));
+        render(kObjects + " --views perceived,overlay --eye both --scale 0.2 -o " + inQuotes(folder / "o.tif"));
     REQUIRE_MESSAGE(ran.code == 0, ran.out);
     CHECK(contains(ran.out, "o-perceived-left.tif: perceived, left eye, at rest, simulated, 256x160"));
     CHECK(contains(ran.out, "3 pictures written."));
@@ -67,13 +67,13 @@ TEST_CASE("render: both eyes and the picture with marks, each in the format its 
     CHECK(left->picture.size() == Size{256, 160});
     CHECK_FALSE(left->picture == right->picture);
     CHECK(projects::readPicture(folder / "o-overlay.tif").has_value());
-    CHECK(render(kObjects + " --scale 0.2 -o " + quoted(folder / "o.exr")).code == 0);
+    CHECK(render(kObjects + " --scale 0.2 -o " + inQuotes(folder / "o.exr")).code == 0);
     CHECK(contentOf(folder / "o.exr").starts_with("\x76\x2f\x31\x01"));
 }
 
 TEST_CASE("render: an error map says its white, its figures and the noise it is measured with") {
     const Folder folder;
-    const Ran ran = render(kObjects + " --view error --scale 0.1 --samples 32 -o " + quoted(folder / "e.png"));
+    const Ran ran = render(kObjects + " --view error --scale 0.1 --samples 32 -o " + inQuotes(folder / "e.png"));
     REQUIRE_MESSAGE(ran.code == 0, ran.out);
     for (const char* part : {"error, left eye, at rest, white is ", "PSNR ", " of a border", "worst pixel ",
                              "own noise is ", "32 rays a pixel"})
@@ -86,8 +86,8 @@ TEST_CASE("render: an error map says its white, its figures and the noise it is 
 TEST_CASE("render: a batch goes on after a project that cannot be opened, and its exit code tells") {
     const Folder folder;
     folder.put("bad.ilfd/project.json", "{");
-    const Ran ran = render(kObjects + " " + quoted(folder / "bad.ilfd") + " " + kDesk +
-                           " --views plain,camera --format png,exr --scale 0.1 --out-dir " + quoted(folder / "out"));
+    const Ran ran = render(kObjects + " " + inQuotes(folder / "bad.ilfd") + " " + kDesk +
+                           " --views plain,camera --format png,exr --scale 0.1 --out-dir " + inQuotes(folder / "out"));
     CHECK_MESSAGE(ran.code == 1, ran.out);
     CHECK(contains(ran.out, "bad.ilfd"));
     CHECK(contains(ran.out, "8 pictures written to " + (folder / "out").string() + ", 1 failed."));
@@ -100,8 +100,8 @@ TEST_CASE("render: a batch goes on after a project that cannot be opened, and it
 TEST_CASE("render: two projects of one name do not write over each other") {
     const Folder folder;
     std::filesystem::create_directory_symlink(kSamples + "study-desk.ilfd", folder / "four-objects.ilfd");
-    const Ran ran = render(kObjects + " " + quoted(folder / "four-objects.ilfd/") + " --view overlay --out-dir " +
-                           quoted(folder / "out"));
+    const Ran ran = render(kObjects + " " + inQuotes(folder / "four-objects.ilfd/") + " --view overlay --out-dir " +
+                           inQuotes(folder / "out"));
     CHECK_MESSAGE(ran.code == 0, ran.out);
     const auto one = projects::readPicture(folder / "out/four-objects-overlay.png");
     const auto two = projects::readPicture(folder / "out/four-objects-2-overlay.png");
@@ -113,10 +113,10 @@ TEST_CASE("render: two projects of one name do not write over each other") {
 TEST_CASE("render: a folder that cannot be made or written fails with exit code 1 and its name") {
     const Folder folder;
     folder.put("file", "in the way");
-    const Ran blocked = render(kObjects + " --view plain --out-dir " + quoted(folder / "file/out"));
+    const Ran blocked = render(kObjects + " --view plain --out-dir " + inQuotes(folder / "file/out"));
     CHECK(blocked.code == 1);
     CHECK(contains(blocked.out, "file"));
-    const Ran nowhere = render(kObjects + " --view plain -o " + quoted(folder / "none/a.exr"));
+    const Ran nowhere = render(kObjects + " --view plain -o " + inQuotes(folder / "none/a.exr"));
     CHECK(nowhere.code == 1);
     CHECK(contains(nowhere.out, "none"));
 }

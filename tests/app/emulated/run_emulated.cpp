@@ -2,36 +2,17 @@
 // was intended, and how a show ends when something befalls it. Never on hardware.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tests/app/emulated/rig_there.h"
 #include "tests/support/run_program.h"
 
 using nlohmann::json;
 using namespace ilf;
 
 namespace {
-
-/// Xvfb and umockdev's preload are what the rig is made of; sanitizers want to be loaded before the latter and cannot
-/// be, in processes that the core starts.
-bool there() {
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-    MESSAGE("SKIPPED: the emulated rig's processes preload a library that a sanitizer must precede");
-    return false;
-#else
-    if (std::system("command -v Xvfb >/dev/null 2>&1") != 0) {
-        MESSAGE("SKIPPED: there is no Xvfb (package xvfb)");
-        return false;
-    }
-    if (std::system("LD_PRELOAD=libumockdev-preload.so.0 true 2>&1 | grep -q preloaded") == 0) {
-        MESSAGE("SKIPPED: there is no libumockdev-preload.so.0 (package umockdev)");
-        return false;
-    }
-    return true;
-#endif
-}
 
 struct RunOnRig {
     TemporaryDirectory folder;
@@ -62,7 +43,7 @@ private:
 }  // namespace
 
 TEST_CASE("run --rig emulated: what the cables brought is what the plan states, pixel by pixel, and is seen") {
-    if (!there()) return;
+    if (!rigThere()) return;
     const TemporaryDirectory pictures;
     const RunOnRig run("--pictures " + pictures.path());
     REQUIRE_MESSAGE(run.ran.code == 0, run.ran.out);
@@ -100,7 +81,7 @@ TEST_CASE("run --rig emulated: what the cables brought is what the plan states, 
 }
 
 TEST_CASE("run --rig emulated: a mishap ends in steady white light and lenses at rest, and is told") {
-    if (!there()) return;
+    if (!rigThere()) return;
     const RunOnRig run("--mishap projector:wrong-mode");
     CHECK_MESSAGE(run.ran.code == 3, run.ran.out);
     REQUIRE_MESSAGE(run.report.contains("mishap"), run.ran.out);
