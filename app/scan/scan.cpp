@@ -36,7 +36,7 @@ Registration registrationOf(const ScanOrder& order, const ScanOutcome& outcome, 
     found.projector = order.rig.projector;
     found.method = Registration::Method::scan;
     found.rms_px = std::hypot(outcome.columns->rms_px, outcome.rows->rms_px);
-    found.worst_px = std::max(outcome.columns->rms_px, outcome.rows->rms_px);
+    found.worst_px = std::max(outcome.columns->worst_px, outcome.rows->worst_px);
     found.points = outcome.decoded.count[static_cast<std::size_t>(PixelState::decoded)];
     found.taken = utcNow();
     found.projectorName = order.rig.name;

@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "core/track/grey.h"
+#include "core/base/grey.h"
 
 namespace ilf::app {
 

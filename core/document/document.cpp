@@ -46,10 +46,6 @@ std::vector<const Region*> activeRegions(const Document& document) {
     return active;
 }
 
-Homography<ProjectorFrame, CameraFrame> projectorFromCamera(const Document& document) {
-    return pixelMap(document).nearest();
-}
-
 PixelMap pixelMap(const Document& document) {
     if (document.rig.registration) return document.rig.registration->map;
     const Size camera = document.scene.size();

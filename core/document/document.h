@@ -35,6 +35,13 @@ struct Outline {
     bool operator==(const Outline&) const = default;
 };
 
+/// On its way to another look: `share` (0 to 1) of its light is that look's already, the rest its own.
+struct LookFade {
+    Look look = Look::neutral;
+    double share = 0.0;
+    bool operator==(const LookFade&) const = default;
+};
+
 struct Region {
     RegionId id;
     std::string name;
@@ -46,6 +53,7 @@ struct Region {
     Mask mask;  ///< camera frame, the picture's size; the background's mask is empty and stands for everything
     std::optional<Outline> outline;
     std::optional<Follow> follow;  ///< absent: stays where it was painted
+    std::optional<LookFade> fade;  ///< absent: its look alone; of the moment, in no file
     bool visible = true;
     bool locked = false;
     bool solo = false;
@@ -120,8 +128,6 @@ std::vector<const Region*> activeRegions(const Document& document);
 /// Where a camera pixel lands on the projector: the rig's registration, or the whole picture fitted into the raster,
 /// centred, with equal scale in x and y.
 PixelMap pixelMap(const Document& document);
-/// The same for what can only use one homography: the registration's nearest one.
-Homography<ProjectorFrame, CameraFrame> projectorFromCamera(const Document& document);
 
 /// The camera's axis in the picture (its centre, until a calibration says otherwise).
 Point<CameraFrame> cameraAxis(const Document& document);

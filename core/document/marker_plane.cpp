@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/grey.h"
 #include "core/document/plane_anchors.h"
 #include "core/document/plane_fit.h"
 #include "core/document/wearer_distances.h"
-#include "core/track/grey.h"
 #include "core/track/marker.h"
 
 namespace ilf {

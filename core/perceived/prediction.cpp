@@ -149,7 +149,7 @@ RegionPrediction predicted(const Plan& plan, const RegionPlan& region, const Doc
     }
     if (subject.seams()) {
         World shifted = subject.assumed();
-        shifted.registration = errors.registration;
+        shifted.registration = subject.registration();
         all[Figures::seam].from[static_cast<std::size_t>(ErrorSource::registration)] =
             std::abs(subject.seam(shifted) - nominal.of[Figures::seam]);
     }
@@ -167,6 +167,7 @@ RegionPrediction predicted(const Plan& plan, const RegionPlan& region, const Doc
     p.snellenLooked = all[Figures::snellenLooked];
     p.ambientLeak = all[Figures::ambientLeak];
     p.seam = all[Figures::seam];
+    p.registration = subject.registration();
     p.seams = subject.seams();
     p.light = plan.light;
     p.sharpShare = subject.sharpShare(subject.assumed(), region.look == Look::blur ? Eyes::aside : Eyes::on);

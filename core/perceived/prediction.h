@@ -24,8 +24,10 @@ const char* word(ErrorSource source);
 /// How wrong each of them may be. The four are independent, so that what they do adds up as the root of their squares;
 /// no probability is claimed for any.
 struct PredictionErrors {
-    Metre pupil = 1.0_mm;           ///< a single person against the formula (Watson and Yellott); none for a camera
-    Metre registration = 0.25_mm;   ///< on the surface; assumed, to be measured on a real rig (scheduling 4.3)
+    Metre pupil = 1.0_mm;  ///< a single person against the formula (Watson and Yellott); none for a camera
+    /// On the surface. Absent: the residual of the rig's registration there (`knownRegistration`), and where none is
+    /// known what `SeamErrors` assumes.
+    std::optional<Metre> registration;
     std::optional<Metre> distance;  ///< absent: the tolerance each region was given
     /// Absent: the rms error of the level's power, and `realEyeError`.
     std::optional<Dioptre> power;
@@ -75,6 +77,7 @@ struct RegionPrediction {
     Predicted snellenLooked;   ///< and its acuity
     Predicted ambientLeak;     ///< what ambient light adds to the contrast left, negative where it takes away
     Predicted seam;            ///< largest |I - 1| across its border with light of another level, see `seamOf`
+    Metre registration;        ///< what its seam's part of registration was worked out with, on the surface
     bool seams = false;        ///< `seam` is predicted: light is displaced, and blended in closed form or not at all
     double light = 1.0;        ///< of steady light
     double sharpShare = 1.0;   ///< of its light that falls while the lens shows it sharp: 1, 0 or, neutral, in between

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/perceived/seam_errors.h"
 #include "core/plan/notes.h"
 
 namespace ilf::prediction {
@@ -40,6 +41,8 @@ Subject::Subject(const Plan& plan, const RegionPlan& region, const Document& doc
     findLight(plan, region);
     findPlace(plan, region, document);
     findSeam(plan, region, document);
+    registration_ = errors.registration.value_or(
+        knownRegistration(document, assumed_.distance).value_or(SeamErrors{}.registration));
 }
 
 void Subject::findLight(const Plan& plan, const RegionPlan& region) {

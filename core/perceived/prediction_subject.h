@@ -43,6 +43,7 @@ public:
     /// Share of its light within the acceptable defocus.
     double sharpShare(const World& world, Eyes eyes) const;
     bool seams() const { return seamPart_ > 0.0; }
+    Metre registration() const { return registration_; }
     double seam(const World& world) const;
 
 private:
@@ -66,7 +67,7 @@ private:
     std::vector<Light> lights_;
     std::optional<Light> attendedLight_;
     World assumed_;
-    Metre tolerance_, attendedTolerance_;
+    Metre tolerance_, attendedTolerance_, registration_;
     Dioptre through_, rest_, realEye_;
 
     Seam blending_;

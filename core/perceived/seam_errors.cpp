@@ -17,6 +17,15 @@ Metre onSurface(const Document& document, double px, Metre distance) {
     return Metre::fromSi(px * longest / pixelsPerMetre(document, distance));
 }
 
+std::optional<Metre> knownRegistration(const Document& document, Metre distance) {
+    const Box<Registration>& registration = document.rig.registration;
+    const bool known = registration && registration->method != Registration::Method::typed &&
+                       registration->rms_px > 0.0 && document.scene.picture && distance > 0.0_m;
+    if (!known) return std::nullopt;
+    const Metre shift = onSurface(document, registration->rms_px, distance);
+    return isFinite(shift) ? std::optional(shift) : std::nullopt;
+}
+
 SeamErrors knownErrors(const Document& document, const Plan& plan) {
     SeamErrors errors;
     Metre farthest;
@@ -26,14 +35,10 @@ SeamErrors knownErrors(const Document& document, const Plan& plan) {
         errors.nearer = std::clamp(uncertain, errors.nearer, 0.9);
         errors.farther = std::max(errors.farther, uncertain);
     }
-    const Box<Registration>& registration = document.rig.registration;
-    const bool known = registration && registration->method != Registration::Method::typed &&
-                       registration->rms_px > 0.0 && document.scene.picture && farthest > 0.0_m;
-    if (!known) return errors;
-    const Metre shift = onSurface(document, registration->rms_px, farthest);
-    if (!isFinite(shift)) return errors;
-    errors.registration = shift;
-    errors.coarseRegistration = 2.0 * shift;
+    if (const auto shift = knownRegistration(document, farthest)) {
+        errors.registration = *shift;
+        errors.coarseRegistration = 2.0 * *shift;
+    }
     return errors;
 }
 

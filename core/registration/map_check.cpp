@@ -16,7 +16,7 @@ constexpr int kLeastStep = 10;  // between neighbours, of picture minus inverse:
 
 struct Sum {
     int edges = 0, far = 0;
-    double squares = 0.0;
+    double squares = 0.0, largest = 0.0;
 };
 
 }  // namespace
@@ -58,6 +58,7 @@ Result<MapCheck> mapCheck(const DenseMap& map, const Pattern& shown, const Image
             ++sum.far;
         } else {
             sum.squares += (at - edge) * (at - edge);
+            sum.largest = std::max(sum.largest, std::abs(at - edge));
         }
     };
     for (int y = 0; y + 1 < picture.height(); ++y) {
@@ -69,6 +70,7 @@ Result<MapCheck> mapCheck(const DenseMap& map, const Pattern& shown, const Image
     MapCheck check;
     check.edges = sum.edges;
     check.rms_px = sum.edges > sum.far ? std::sqrt(sum.squares / (sum.edges - sum.far)) : 0.0;
+    check.worst_px = sum.largest;
     check.beyond = sum.edges > 0 ? static_cast<double>(sum.far) / sum.edges : 0.0;
     return check;
 }

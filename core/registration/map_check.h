@@ -16,9 +16,10 @@ Pattern checkPattern(Pattern::Kind kind, Size projector);
 /// Residuals are distances on the raster, across the stripes, between an edge as it was shown and the map of where the
 /// camera sees it (sub-pixel, where picture and inverse are equal between two neighbouring pixels).
 struct MapCheck {
-    int edges = 0;        ///< edge points found where the map was decoded
-    double rms_px = 0.0;  ///< of those within 4 px
-    double beyond = 0.0;  ///< share of edge points farther off than 4 px
+    int edges = 0;          ///< edge points found where the map was decoded
+    double rms_px = 0.0;    ///< of those within 4 px
+    double worst_px = 0.0;  ///< of the same, the largest
+    double beyond = 0.0;    ///< share of edge points farther off than 4 px
     bool holds() const { return edges >= 50 && rms_px <= 1.0 && beyond <= 0.1; }
 };
 

@@ -23,7 +23,8 @@ struct Registration {
     CameraMode camera;
     Size projector;  ///< the raster it was made on; 0 x 0: not known
     Method method = Method::typed;
-    double rms_px = 0.0, worst_px = 0.0;  ///< residuals on the raster, projector pixels
+    double rms_px = 0.0, worst_px = 0.0;  ///< residuals of what it rests on, on the raster, projector pixels: root of
+                                          ///< the mean square and largest; of a scan those of stripes shown anew
     int points = 0;                       ///< pairs or decoded pixels it rests on
     std::string taken;                    ///< UTC, ISO 8601; empty: not known
     std::string projectorName;            ///< the projector's identity; empty: not known

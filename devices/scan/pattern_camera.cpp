@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/base/as_text.h"
+#include "core/base/grey.h"
 #include "devices/scan/captured_scan.h"
 #include "devices/scan/pair_proof.h"
 
@@ -32,17 +33,6 @@ constexpr int kMostSweeps = 16;
 constexpr int kNothing = 3;
 /// Frames in which an automatic exposure finds itself.
 constexpr int kAdapting = 10;
-
-Image<std::uint8_t> greyOf(const Image<std::uint8_t>& rgb) {
-    if (rgb.channels() == 1) return rgb;
-    std::vector<std::uint8_t> grey;
-    grey.reserve(rgb.pixels().size() / 3);
-    const auto pixels = rgb.pixels();
-    for (std::size_t i = 0; i + 2 < pixels.size(); i += 3)
-        grey.push_back(
-            static_cast<std::uint8_t>((77U * pixels[i] + 150U * pixels[i + 1] + 29U * pixels[i + 2] + 128U) >> 8U));
-    return Image<std::uint8_t>(rgb.size(), 1, std::move(grey));
-}
 
 /// The code that a hundredth of the pixels reach.
 int brightest(const Image<std::uint8_t>& grey) {

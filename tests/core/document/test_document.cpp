@@ -62,11 +62,11 @@ TEST_CASE("document: hidden regions do not take part, and solo leaves only the s
 
 TEST_CASE("document: without a registration the picture is fitted into the raster, centred") {
     Document document = twoRegions();  // 320 x 200 into 1024 x 768: 3.2 times, 64 rows above and below
-    const auto fitted = projectorFromCamera(document);
+    const auto fitted = pixelMap(document).nearest();
     CHECK(fitted({0.0, 0.0}) == Point<ProjectorFrame>{0.0, 64.0});
     CHECK(fitted({320.0, 200.0}) == Point<ProjectorFrame>{1024.0, 704.0});
     document.rig.registration = registered(Homography<ProjectorFrame, CameraFrame>{{2, 0, 1, 0, 2, 3, 0, 0, 1}});
-    CHECK(projectorFromCamera(document)({1.0, 1.0}) == Point<ProjectorFrame>{3.0, 5.0});
+    CHECK(pixelMap(document).toProjector({1.0, 1.0}) == Point<ProjectorFrame>{3.0, 5.0});
 }
 
 TEST_CASE("document: the eyes' optical centres lie farther apart the nearer the surface") {

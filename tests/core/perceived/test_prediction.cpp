@@ -171,7 +171,7 @@ TEST_CASE("prediction: more error of any kind never makes blur's +- smaller") {
             b.pupil += Metre::fromSi(in(1, 10, 1e-4));
             break;
         case 1:
-            b.registration += Metre::fromSi(in(1, 50, 1e-5));
+            *b.registration += Metre::fromSi(in(1, 50, 1e-5));
             break;
         case 2:
             *b.distance += Metre::fromSi(in(1, 100, 1e-3));

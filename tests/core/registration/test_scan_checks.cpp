@@ -75,6 +75,8 @@ TEST_CASE("map check: a good map holds; one that is a pixel off does not pass fo
         REQUIRE(good);
         CHECK(good->holds());
         CHECK(good->rms_px < 0.1);
+        CHECK(good->worst_px > good->rms_px);  // a true largest residual, of noise
+        CHECK(good->worst_px < 1.0);
         CHECK(good->edges > 500);
         // The projector was bumped: the same light lands 2.5 raster pixels farther.
         SyntheticCamera bumped = at;
@@ -87,6 +89,7 @@ TEST_CASE("map check: a good map holds; one that is a pixel off does not pass fo
         REQUIRE(off);
         CHECK(!off->holds());
         CHECK(off->rms_px == doctest::Approx(2.5).epsilon(0.1));
+        CHECK(off->worst_px > 2.5);
     }
 }
 

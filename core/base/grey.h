@@ -1,4 +1,4 @@
-// Pictures as one channel of brightness, which is all that markers and textures are told by.
+// Pictures as one channel of brightness, which is all that markers, textures and scans are told by.
 #pragma once
 
 #include <cstdint>

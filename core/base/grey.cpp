@@ -1,4 +1,4 @@
-#include "core/track/grey.h"
+#include "core/base/grey.h"
 
 #include <vector>
 
@@ -26,7 +26,7 @@ Image<std::uint8_t> grey(const Image<T>& picture, unsigned divisor) {
 
 }  // namespace
 
-Image<std::uint8_t> greyOf(const Image<std::uint8_t>& rgb) { return grey(rgb, 1U); }
+Image<std::uint8_t> greyOf(const Image<std::uint8_t>& rgb) { return rgb.channels() == 1 ? rgb : grey(rgb, 1U); }
 Image<std::uint8_t> greyOf(const Picture& picture) { return grey(picture, 257U); }
 
 }  // namespace ilf
