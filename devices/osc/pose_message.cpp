@@ -31,16 +31,24 @@ std::uint32_t word(std::span<const std::byte> at) {
 
 Error bad(const std::string& what) { return {Fault::badFile, "An OSC message was ignored: " + what + "."}; }
 
-std::optional<double> number(char type, const lo_arg& arg) {
+template <class T>
+double numberAt(const void* at) {
+    T value{};
+    std::memcpy(&value, at, sizeof value);
+    return static_cast<double>(value);
+}
+
+/// liblo's arguments lie on multiples of four bytes, too narrow for its lo_arg: they are copied, never pointed into.
+std::optional<double> number(char type, const void* at) {
     switch (type) {
     case LO_INT32:
-        return arg.i;
+        return numberAt<std::int32_t>(at);
     case LO_INT64:
-        return static_cast<double>(arg.h);
+        return numberAt<std::int64_t>(at);
     case LO_FLOAT:
-        return static_cast<double>(arg.f);
+        return numberAt<float>(at);
     case LO_DOUBLE:
-        return arg.d;
+        return numberAt<double>(at);
     default:
         return std::nullopt;
     }
@@ -123,7 +131,7 @@ private:
         }
         double v[5] = {0.0, 0.0, 0.0, 0.0, 1.0};
         for (int i = 0; i < count; ++i) {
-            const auto value = number(types[i], *args[i]);
+            const auto value = number(types[i], args[i]);
             if (!value || !std::isfinite(*value))
                 return tl::unexpected(bad(name + " has an argument that is no number; send floats"));
             v[i] = *value;

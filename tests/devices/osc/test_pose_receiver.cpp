@@ -90,6 +90,21 @@ TEST_CASE("whole numbers are numbers, too") {
     CHECK(says->poses[0].x == 1.0);
 }
 
+TEST_CASE("numbers of eight bytes are read where four-byte ones have moved them") {
+    auto bytes = padded("/pose/4");
+    add(bytes, padded(",fdh"));
+    add(bytes, 0.25F);
+    add(bytes, std::uint32_t{0x3FE00000});  // 0.5 as a double
+    add(bytes, std::uint32_t{0});
+    add(bytes, std::uint32_t{0});
+    add(bytes, std::uint32_t{2});
+    const auto says = poseMessage(bytes, kNow);
+    REQUIRE(says);
+    REQUIRE(says->poses.size() == 1);
+    CHECK(says->poses[0].y == 0.5);
+    CHECK(says->poses[0].z_m == 2.0);
+}
+
 TEST_CASE("a bundle's time tag tells how old its poses are; another clock's is not believed") {
     const auto one = message("/pose/1", {0.1F, 0.2F}), two = message("/pose/2", {0.3F, 0.4F});
     auto says = poseMessage(bundle(kNtp, {one, bundle(0, {two})}), kNow);
