@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/registration/gray_code.h"
+#include "core/registration/gray_code_agree.h"
 
 namespace ilf {
 
@@ -90,14 +91,15 @@ Trend trendOf(const Places& places) {
 
 std::vector<std::uint8_t> steadied(Places& places, const Trend& trend, std::array<double, 2> within) {
     // Departures from the trend in sixteenths of a pixel, 16 bits, with a margin so that no loop asks for borders.
-    constexpr int kReach = 2;
+    constexpr int kReach = kAgreeReach;
     constexpr float kUnit = 16.0F;
     constexpr std::int16_t kFar = 8000;       // 500 raster pixels off the trend: no farther
     constexpr std::int16_t kNowhere = 20000;  // agrees with nobody
     const int width = places.camera.width, height = places.camera.height;
     const auto columns = static_cast<std::size_t>(width);
     const std::size_t stride = columns + 2 * kReach;
-    std::vector<std::int16_t> px(stride * static_cast<std::size_t>(height + 2 * kReach), kNowhere), py = px;
+    std::vector<std::int16_t> px(stride * static_cast<std::size_t>(height + 2 * kReach) + kAgreeOverrun, kNowhere);
+    std::vector<std::int16_t> py = px;
     parallelFor(height, [&](int j) {
         const std::size_t from = static_cast<std::size_t>(j) * columns;
         const std::size_t to = static_cast<std::size_t>(j + kReach) * stride + kReach;
@@ -121,39 +123,22 @@ std::vector<std::uint8_t> steadied(Places& places, const Trend& trend, std::arra
     const std::int16_t gateX = gate(within[0]), gateY = gate(within[1]);
     std::vector<std::uint8_t> agreement(columns * static_cast<std::size_t>(height), 0);
     parallelFor(height, [&](int j) {
-        std::vector<std::int16_t> agree(columns, 0), known(columns, 0), sumX(columns, 0), sumY(columns, 0);
-        std::int16_t *pAgree = agree.data(), *pKnown = known.data(), *pSumX = sumX.data(), *pSumY = sumY.data();
-        const std::int16_t* hereX = px.data() + static_cast<std::size_t>(j + kReach) * stride + kReach;
-        const std::int16_t* hereY = py.data() + static_cast<std::size_t>(j + kReach) * stride + kReach;
-        for (int v = -kReach; v <= kReach; ++v) {
-            const std::int16_t* rowX = hereX + std::ptrdiff_t(v) * std::ptrdiff_t(stride) - kReach;
-            const std::int16_t* rowY = hereY + std::ptrdiff_t(v) * std::ptrdiff_t(stride) - kReach;
-            for (int u = 0; u <= 2 * kReach; ++u) {
-                const std::int16_t *thereX = rowX + u, *thereY = rowY + u;
-                for (int i = 0; i < width; ++i) {
-                    const auto dx = static_cast<std::int16_t>(thereX[i] - hereX[i]);
-                    const auto dy = static_cast<std::int16_t>(thereY[i] - hereY[i]);
-                    const auto ax = std::max<std::int16_t>(dx, static_cast<std::int16_t>(-dx));
-                    const auto ay = std::max<std::int16_t>(dy, static_cast<std::int16_t>(-dy));
-                    const auto in = static_cast<std::int16_t>(-static_cast<std::int16_t>((ax < gateX) & (ay < gateY)));
-                    pAgree[i] = static_cast<std::int16_t>(pAgree[i] - in);
-                    pSumX[i] = static_cast<std::int16_t>(pSumX[i] + (dx & in));
-                    pSumY[i] = static_cast<std::int16_t>(pSumY[i] + (dy & in));
-                    pKnown[i] = static_cast<std::int16_t>(pKnown[i] + (thereX[i] < kNowhere));
-                }
-            }
-        }
+        const std::size_t here = static_cast<std::size_t>(j + kReach) * stride + kReach;
+        Agreement with(columns);
+        countAgreeing({px.data() + here, py.data() + here, std::ptrdiff_t(stride), kNowhere}, width, gateX, gateY,
+                      with);
         const std::size_t row = static_cast<std::size_t>(j) * columns;
         for (std::size_t i = 0; i < columns; ++i) {
             if (places.state[row + i] != kDecoded) continue;
-            if (agree[i] < 5 || 5 * agree[i] < 2 * known[i]) {
+            const int agree = with.agree[i], known = with.known[i];
+            if (agree < 5 || 5 * agree < 2 * known) {
                 places.state[row + i] = kInconsistent;
                 continue;
             }
-            const float scale = 1.0F / (kUnit * static_cast<float>(agree[i]));
-            places.at[2 * (row + i)] += scale * static_cast<float>(sumX[i]);
-            places.at[2 * (row + i) + 1] += scale * static_cast<float>(sumY[i]);
-            agreement[row + i] = static_cast<std::uint8_t>(255 * agree[i] / known[i]);
+            const float scale = 1.0F / (kUnit * static_cast<float>(agree));
+            places.at[2 * (row + i)] += scale * static_cast<float>(with.sumX[i]);
+            places.at[2 * (row + i) + 1] += scale * static_cast<float>(with.sumY[i]);
+            agreement[row + i] = static_cast<std::uint8_t>(255 * agree / known);
         }
     });
     return agreement;
