@@ -18,7 +18,7 @@ using nlohmann::json;
 
 namespace {
 
-Ran calibrate(const std::string& arguments) { return runProgram(ILF_STUDIO_PATH, "calibrate " + arguments + " 2>&1"); }
+Ran calibrate(const std::string& arguments) { return readAsCalled(ILF_STUDIO_PATH, "calibrate " + arguments); }
 
 /// Fewer pixels than a real rig has, so that pictures are quickly made: 640 x 512 and 256 x 192.
 truth::Procam smallProcam() {

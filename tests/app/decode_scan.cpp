@@ -14,9 +14,7 @@ using namespace ilf;
 
 namespace {
 
-Ran decodeScan(const std::string& arguments) {
-    return runProgram(ILF_STUDIO_PATH, "decode-scan " + arguments + " 2>&1");
-}
+Ran decodeScan(const std::string& arguments) { return readAsCalled(ILF_STUDIO_PATH, "decode-scan " + arguments); }
 std::string inQuotes(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 

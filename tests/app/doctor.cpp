@@ -53,7 +53,7 @@ struct Machine {
     /// With the files of `root` instead of the machine's.
     Ran inRoot(const std::string& options = "") const { return ran("doctor --root " + root.path() + " " + options); }
     Ran ran(const std::string& arguments) const {
-        return runProgram(ILF_STUDIO_PATH, arguments + " 2>&1", "ILF_RUNTIME_DIR=" + runtime.path());
+        return readAsCalled(ILF_STUDIO_PATH, arguments, "ILF_RUNTIME_DIR=" + runtime.path());
     }
     json report(const std::string& options = "") const { return json::parse(doctor("--json " + options).out); }
 };
@@ -228,8 +228,8 @@ TEST_CASE("doctor: a device this user may not open is told with the rules to ins
             if (entry.is_directory() && !entry.is_symlink()) fs::permissions(entry.path(), fs::perms(0777));
     }
     const auto asked = [&](const std::string& options) {
-        return runProgram(ILF_STUDIO_PATH, "doctor --root " + root.string() + " " + options + " 2>&1",
-                          "ILF_RUNTIME_DIR=" + machine.runtime.path() + other);
+        return readAsCalled(ILF_STUDIO_PATH, "doctor --root " + root.string() + " " + options,
+                            "ILF_RUNTIME_DIR=" + machine.runtime.path() + other);
     };
     const Ran ran = asked("");
     CHECK(ran.code == 3);

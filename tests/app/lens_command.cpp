@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-Ran lens(const std::string& arguments) { return runProgram(ILF_STUDIO_PATH, "lens " + arguments + " 2>&1"); }
+Ran lens(const std::string& arguments) { return readAsCalled(ILF_STUDIO_PATH, "lens " + arguments); }
 /// Standard output alone.
 Ran quietLens(const std::string& arguments) {
     return runProgram(ILF_STUDIO_PATH, "lens " + arguments + " 2>/dev/null");

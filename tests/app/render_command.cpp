@@ -15,7 +15,7 @@ namespace {
 const std::string kSamples = std::string(ILF_SOURCE_DIR) + "/projects/samples/";
 
 /// Both streams together.
-Ran render(const std::string& arguments) { return runProgram(ILF_STUDIO_PATH, "render " + arguments + " 2>&1"); }
+Ran render(const std::string& arguments) { return readAsCalled(ILF_STUDIO_PATH, "render " + arguments); }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 

@@ -29,6 +29,13 @@ inline Ran runProgram(const std::string& program, const std::string& arguments, 
     return ran;
 }
 
+/// What a person would read, both streams in one; of a run with --json what a program would: standard output alone,
+/// since a sanitizer may have something to say, too.
+inline Ran readAsCalled(const std::string& program, const std::string& arguments, const std::string& environment = "") {
+    const bool byProgram = arguments.find("--json") != std::string::npos;
+    return runProgram(program, arguments + (byProgram ? "" : " 2>&1"), environment);
+}
+
 /// A new directory under the system's temporary one, removed with all in it when it goes out of scope.
 class TemporaryDirectory {
 public:
