@@ -74,10 +74,10 @@ Result<cv::Ptr<Dictionary>> only(const std::string& name, const std::vector<int>
     return some;
 }
 
-cv::Ptr<cv::aruco::DetectorParameters> parameters(Size size) {
+cv::Ptr<cv::aruco::DetectorParameters> parameters(Size size, int around) {
     auto p = cv::aruco::DetectorParameters::create();
-    p->adaptiveThreshWinSizeMin = 5;
-    p->adaptiveThreshWinSizeMax = 21;
+    p->adaptiveThreshWinSizeMin = around > 0 ? around : 5;
+    p->adaptiveThreshWinSizeMax = around > 0 ? around : 21;
     p->adaptiveThreshWinSizeStep = 8;
     // Of the longer side, but a marker is at least 12 px wide, below which its bits cannot be read.
     p->minMarkerPerimeterRate = std::min(0.5, 48.0 / std::max(size.width, size.height));
@@ -120,6 +120,24 @@ Result<void> checkedMarker(const std::string& dictionary, int id) {
     return hasMarker(**whole, dictionary, id);
 }
 
+MarkerSearch partOfSearch(MarkerSearch whole, Size picture, int look) {
+    // As many pixels take as long at full size as a picture of 1280 x 720 does at half; overlapping by a marker that
+    // is found at half size.
+    constexpr int kPixels = 320'000, kOverlap = 64;
+    const int turn = look / 2;
+    const int strips = std::max(1, (picture.width * picture.height + kPixels - 1) / kPixels);
+    whole.coarse = look % 2 == 0 ? 2 : 1;
+    const int round = whole.coarse == 2 ? turn : turn / strips;
+    whole.around = round % 2 == 0 ? 5 : 21;
+    if (whole.coarse == 1) {
+        const int strip = turn % strips;
+        whole.window = {0, picture.height * strip / strips - kOverlap / 2, picture.width,
+                        picture.height * (strip + 1) / strips + kOverlap / 2};
+        whole.window = whole.window.clipped(picture);
+    }
+    return whole;
+}
+
 Result<std::vector<SeenMarker>> findMarkers(const Image<std::uint8_t>& grey, const MarkerSearch& search) {
     std::vector<SeenMarker> seen;
     try {
@@ -141,7 +159,7 @@ Result<std::vector<SeenMarker>> findMarkers(const Image<std::uint8_t>& grey, con
         }
         std::vector<std::vector<cv::Point2f>> corners;
         std::vector<int> ids;
-        cv::aruco::detectMarkers(part, *dictionary, corners, ids, parameters({part.cols, part.rows}));
+        cv::aruco::detectMarkers(part, *dictionary, corners, ids, parameters({part.cols, part.rows}, search.around));
         const double sx = static_cast<double>(window.width()) / part.cols;
         const double sy = static_cast<double>(window.height()) / part.rows;
         for (std::size_t i = 0; i < ids.size(); ++i) {

@@ -16,7 +16,13 @@ struct MarkerSearch {
     std::vector<int> ids;                       ///< only these are told apart from anything else
     PixelRect<CameraFrame> window;              ///< looked at; empty: the whole picture
     int coarse = 1;  ///< candidates are looked for in a picture so many times smaller; corners come from the whole one
+    int around = 0;  ///< side of the square that says what is dark, pixels; 0: 5, 13 and 21, each as long as one alone
 };
+
+/// What one picture can afford of a search of all of it: every other look takes half the size, which shows markers from
+/// some 40 px, and the others strips at full size in turn, down to 12 px, each with 5 or 21 px around. A picture of
+/// 1280 x 720 pixels is through after twelve looks, `look` = 0, 1, ...
+MarkerSearch partOfSearch(MarkerSearch whole, Size picture, int look);
 
 struct SeenMarker {
     int id = 0;
