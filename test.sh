@@ -6,7 +6,7 @@ cd "$root"
 usage() {
     cat <<END
 Usage: ./test.sh           release tests (panels, real window and processes included), then core, devices and projects
-                           under ASan+UBSan and the threaded tests under TSan
+                           under ASan+UBSan, and what runs threads under TSan
        ./test.sh --quick   the release tests only
        ./test.sh --full    everything: all tests under both sanitizers, 100 kills instead of 10, clang-tidy, formatting,
                            every benchmark run once
@@ -115,7 +115,9 @@ if [ "$mode" != quick ]; then
         build asan-ubsan test_core test_devices test_projects
         tests asan-ubsan --tests-regex '^(core|devices|projects)/'
         build tsan test_devices test_app
-        tests tsan --tests-regex '^(devices|app)/'
+        # What runs threads of ours; whole programs take the sanitizer minutes each, and --full runs them.
+        tests tsan --tests-regex '^(devices|app)/' \
+            --exclude-regex '^app/(emulated/|samples_view|evaluate|optics_|lens_|[a-z_]*_command|decode_scan|render_)'
     fi
 fi
 
