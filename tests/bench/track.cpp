@@ -2,6 +2,9 @@
 // frame for the same marker.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <opencv2/aruco.hpp>
 #include <opencv2/imgproc.hpp>
@@ -90,6 +93,30 @@ void search(benchmark::State& state, const MarkerSearch& how, bool windowed) {
 void markerInWindow(benchmark::State& state) { search(state, {"APRILTAG_36h11", {7}, {}, 1}, true); }
 void markerInWholeFrameAtHalfSize(benchmark::State& state) { search(state, {"APRILTAG_36h11", {7}, {}, 2}, false); }
 void markerInWholeFrame(benchmark::State& state) { search(state, {"APRILTAG_36h11", {7}, {}, 1}, false); }
+
+/// A lost marker: each picture's part of the search, all twelve of them in turn. `worst_ms`: the longest of them.
+void markerLostPart(benchmark::State& state) {
+    cv::setNumThreads(1);
+    const auto& frames = markerFrames();
+    constexpr std::size_t kParts = 12;
+    std::array<double, kParts> least{};
+    least.fill(1e9);
+    Offs offs;
+    std::size_t i = 0;
+    for (auto _ : state) {
+        const std::size_t part = i % kParts, frame = i / kParts % kFrames;
+        ++i;
+        const auto start = std::chrono::steady_clock::now();
+        const auto seen =
+            findMarkers(frames[frame], partOfSearch({"APRILTAG_36h11", {7}, {}, 1}, kFrame, static_cast<int>(part)));
+        const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+        least[part] = std::min(least[part], took.count());
+        ++offs.asked;
+        if (seen && seen->size() == 1) offs.add(placed(static_cast<int>(frame)), seen->front().corners);
+    }
+    offs.report(state);
+    state.counters["worst_ms"] = *std::ranges::max_element(least);
+}
 
 void openCvInWholeFrame(benchmark::State& state) {
     cv::setNumThreads(1);
@@ -183,6 +210,7 @@ void movedMask(benchmark::State& state) {
 }
 
 BENCHMARK(markerInWindow)->Unit(benchmark::kMillisecond);
+BENCHMARK(markerLostPart)->Unit(benchmark::kMillisecond);
 BENCHMARK(markerInWholeFrameAtHalfSize)->Unit(benchmark::kMillisecond);
 BENCHMARK(markerInWholeFrame)->Unit(benchmark::kMillisecond);
 BENCHMARK(openCvInWholeFrame)->Unit(benchmark::kMillisecond);
