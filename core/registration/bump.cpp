@@ -1,7 +1,9 @@
 #include "core/registration/bump.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -96,6 +98,77 @@ double correlation(const cv::Mat& a, cv::Point p, const cv::Mat& b, cv::Point q)
     return va < 1.0 || vb < 1.0 ? 0.0 : (ab - sa * sb / n) / std::sqrt(va * vb);
 }
 
+/// The patch's values with its brightness and contrast taken out: mean 0, sum of squares 1.
+using Patch = std::array<double, (2 * kPatch + 1) * (2 * kPatch + 1)>;
+
+/// False where it is even.
+bool evened(Patch& patch, double& norm) {
+    const double mean = std::accumulate(patch.begin(), patch.end(), 0.0) / static_cast<double>(patch.size());
+    double squares = 0.0;
+    for (double& v : patch)
+        v -= mean, squares += v * v;
+    norm = std::sqrt(squares);
+    if (norm < 1.0) return false;
+    for (double& v : patch)
+        v /= norm;
+    return true;
+}
+
+/// How far beside `q` the patch around `p` lies, by Lucas and Kanade's (1981) steps with the gradients of the patch
+/// looked for. A parabola through three correlations, which would be cheaper, is drawn to whole pixels: by 0.1 to 0.2
+/// at a quarter, 0.5 on the photo of a cup. Nothing where it does not come to rest within a pixel of `q`.
+std::optional<cv::Point2d> beside(const cv::Mat& before, cv::Point p, const cv::Mat& now, cv::Point q) {
+    Patch wanted, across, down;
+    std::size_t n = 0;
+    for (int y = -kPatch; y <= kPatch; ++y) {
+        for (int x = -kPatch; x <= kPatch; ++x, ++n) {
+            const auto at = [&](int i, int j) { return 1.0 * before.at<std::uint8_t>(p.y + y + j, p.x + x + i); };
+            wanted[n] = at(0, 0);
+            across[n] = 0.5 * (at(1, 0) - at(-1, 0));
+            down[n] = 0.5 * (at(0, 1) - at(0, -1));
+        }
+    }
+    double norm = 0.0;
+    if (!evened(wanted, norm)) return std::nullopt;
+    // What a step changes besides brightness and contrast.
+    const auto freed = [&](Patch& gradient) {
+        const double mean = std::accumulate(gradient.begin(), gradient.end(), 0.0) / static_cast<double>(n);
+        for (double& v : gradient)
+            v = (v - mean) / norm;
+        const double along = std::inner_product(gradient.begin(), gradient.end(), wanted.begin(), 0.0);
+        for (std::size_t i = 0; i < n; ++i)
+            gradient[i] -= along * wanted[i];
+    };
+    freed(across), freed(down);
+    const auto dot = [](const Patch& a, const Patch& b) {
+        return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+    };
+    const double xx = dot(across, across), xy = dot(across, down), yy = dot(down, down), det = xx * yy - xy * xy;
+    if (!(det > 1e-6 * (xx + yy) * (xx + yy))) return std::nullopt;  // an edge: nothing says where along it
+    cv::Point2d d(0.0, 0.0);
+    for (int step = 0; step < 12; ++step) {
+        const cv::Point whole(q.x + static_cast<int>(std::floor(d.x)), q.y + static_cast<int>(std::floor(d.y)));
+        const double fx = d.x - std::floor(d.x), fy = d.y - std::floor(d.y);
+        Patch seen;
+        std::size_t i = 0;
+        for (int y = -kPatch; y <= kPatch; ++y) {
+            const std::uint8_t *u = now.ptr(whole.y + y) + whole.x, *v = now.ptr(whole.y + y + 1) + whole.x;
+            for (int x = -kPatch; x <= kPatch; ++x, ++i)
+                seen[i] = (1.0 - fy) * ((1.0 - fx) * u[x] + fx * u[x + 1]) + fy * ((1.0 - fx) * v[x] + fx * v[x + 1]);
+        }
+        double seenNorm = 0.0;
+        if (!evened(seen, seenNorm)) return std::nullopt;
+        for (std::size_t k = 0; k < n; ++k)
+            seen[k] -= wanted[k];
+        const double bx = dot(across, seen), by = dot(down, seen);
+        const cv::Point2d move((yy * bx - xy * by) / det, (xx * by - xy * bx) / det);
+        d -= move;
+        if (!(std::abs(d.x) < 1.0 && std::abs(d.y) < 1.0)) return std::nullopt;
+        if (std::abs(move.x) < 0.005 && std::abs(move.y) < 0.005) return d;
+    }
+    return std::nullopt;
+}
+
 /// Where the patch around `from` lies near `to`, to a fraction of a pixel; nothing where it does not look alike.
 std::optional<cv::Point2f> refined(const cv::Mat& before, cv::Point2f from, const cv::Mat& now, cv::Point2f to) {
     const cv::Point p(cvRound(from.x), cvRound(from.y)), q(cvRound(to.x), cvRound(to.y));
@@ -113,13 +186,10 @@ std::optional<cv::Point2f> refined(const cv::Mat& before, cv::Point2f from, cons
         }
     }
     if (most < 0.7) return std::nullopt;
-    const auto top = [&](cv::Point step) {
-        const double l = correlation(before, p, now, best - step), r = correlation(before, p, now, best + step);
-        const double curve = l - 2.0 * most + r;
-        return curve < -1e-9 ? std::clamp(0.5 * (l - r) / curve, -0.5, 0.5) : 0.0;
-    };
-    return cv::Point2f(static_cast<float>(best.x + top({1, 0})) + (from.x - static_cast<float>(p.x)),
-                       static_cast<float>(best.y + top({0, 1})) + (from.y - static_cast<float>(p.y)));
+    const auto rest = beside(before, p, now, best);
+    if (!rest) return std::nullopt;
+    return cv::Point2f(static_cast<float>(best.x + rest->x) + (from.x - static_cast<float>(p.x)),
+                       static_cast<float>(best.y + rest->y) + (from.y - static_cast<float>(p.y)));
 }
 
 double median(std::vector<double> values) {

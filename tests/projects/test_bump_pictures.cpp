@@ -56,8 +56,8 @@ TEST_CASE("bump: photos that move by known amounts are noticed and measured; lig
                 const double a = degrees * 3.14159265358979 / 180.0, x = 0.5 * photo.cols - 50,
                              y = 0.5 * photo.rows - 50;
                 const auto to = (*moved.newFromOld)(Point<CameraFrame>{x + 0.5, y + 0.5});
-                CHECK(std::abs(to.x - 0.5 - (std::cos(a) * x - std::sin(a) * y + dx)) < 0.6);
-                CHECK(std::abs(to.y - 0.5 - (std::sin(a) * x + std::cos(a) * y + dy)) < 0.6);
+                CHECK(std::abs(to.x - 0.5 - (std::cos(a) * x - std::sin(a) * y + dx)) < 0.1);
+                CHECK(std::abs(to.y - 0.5 - (std::sin(a) * x + std::cos(a) * y + dy)) < 0.1);
             }
         }
         cv::Mat hand = window(photo, 0, 0, 0, 1.0);
