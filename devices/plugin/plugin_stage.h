@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "devices/plugin/known_device.h"
-#include "devices/plugin/lens_side.h"
 #include "devices/plugin/loaded_plugin.h"
+#include "devices/rig/known_device.h"
+#include "devices/rig/lens_side.h"
 
 namespace ilf::devices {
 

@@ -2,27 +2,30 @@
 
 #include <cmath>
 
-#include "devices/simulated/simulated_stage.h"  // kSettledLens
-
 namespace ilf::devices {
 namespace {
-
-using namespace std::chrono_literals;
 
 // Of video nobody measured: the slowest there is.
 constexpr Second kLongestFrame = 40.0_ms;
 // Half of what separates 59.94 from 60 Hz. What is left is the phase lock's to judge.
 constexpr double kMostOff = 500e-6;
-constexpr Second kListenEvery = 20.0_ms;
-// Fitting takes 0.4 s, aligning and settling as long again; an echo is heard in half a second.
-constexpr std::chrono::nanoseconds kLongestLocking = 5s;
 
 std::chrono::nanoseconds inNs(Second time) { return std::chrono::nanoseconds(std::llround(time.si() * 1e9)); }
 
+std::string usualName(const DisplayIdentity& display) {
+    return display.connector.empty() ? "the projector's display" : display.connector;
+}
+
 }  // namespace
 
+LightCrafterStage::LightCrafterStage(LightCrafterRig rig)
+    : rig_(std::move(rig)), lens_(rig_.openLens, rig_.clock, "TRIG_OUT_2"),
+      projectorKnown_("projector", "LightCrafter 4500"), displayKnown_("display", usualName(rig_.video->display())) {
+    (void)lens_.restsAt(rig_.rest);
+}
+
 LightCrafterStage::~LightCrafterStage() {
-    if (projector_ || lens_) safeLight();
+    if (projector_ || lens_.there()) safeLight();
 }
 
 Result<void> LightCrafterStage::load(const Program& program) {
@@ -35,8 +38,8 @@ Result<void> LightCrafterStage::load(const Program& program) {
 }
 
 bool LightCrafterStage::playsLikeLoaded() const {
-    return light_ == Light::slotted && told_ == loaded_->program.waveform && running_ == loaded_->frame.sequence &&
-           ahead_ == loaded_->program.projectorDelay;
+    return light_ == Light::slotted && running_ == loaded_->frame.sequence &&
+           lens_.plays(loaded_->program.waveform, loaded_->program.projectorDelay);
 }
 
 Result<void> LightCrafterStage::swap() {
@@ -45,8 +48,9 @@ Result<void> LightCrafterStage::swap() {
     auto done = only ? published(loaded_->frame.picture) : began();
     if (done) done = confirmed();
     if (!done) return faulted(done.error());
-    for (Known* device : {&projectorKnown_, &displayKnown_, &lensesKnown_})
-        device->cleared();
+    projectorKnown_.cleared();
+    displayKnown_.cleared();
+    lens_.cleared();
     return {};
 }
 
@@ -59,6 +63,7 @@ Result<void> LightCrafterStage::began() {
     }
     if (auto there = reached(program.waveform.rest); !there) return there;
     safeTold_ = false;
+    sweeps_ = program.waveform.rate;
     if (auto back = backToVideo(); !back) return back;
     if (auto well = videoWell(); !well) return well;
     const double off = mode_.refresh / program.waveform.rate - 1.0;
@@ -70,9 +75,9 @@ Result<void> LightCrafterStage::began() {
     if (frame.picture.size() != mode_.size)
         return displayKnown_.wrong(
             {Fault::device, "The projector's display does not have the mode its slots are packed for; set 912x1140."});
-    if (auto settled = lensSettled(program.waveform, program.projectorDelay); !settled) return settled;
+    if (auto settled = lens_.settled(program.waveform, program.projectorDelay); !settled) return settled;
     if (auto run = patternsRun(frame.sequence); !run) return run;
-    if (auto locked = inStep(); !locked) return locked;
+    if (auto locked = lens_.inStep(); !locked) return locked;
     if (auto well = confirmed(); !well) return well;
     light_ = Light::slotted;  // even if the order fails: it may have got through
     return published(frame.picture);
@@ -91,23 +96,6 @@ Result<void> LightCrafterStage::published(const VideoFrame& frame) {
     return lit(frame).map([&](std::chrono::nanoseconds began) { lightBegan_ = began; });
 }
 
-Result<void> LightCrafterStage::lensSettled(const Waveform& wave, Second triggerAhead) {
-    if (told_ != wave || ahead_ != triggerAhead) {
-        resting_ = false;
-        told_ = wave;  // whatever becomes of the order
-        ahead_ = triggerAhead;
-        const auto alone = lens_->play(wave, triggerAhead);
-        if (!alone) return lensFailed(alone.error());
-        wait(*alone);
-        const std::int64_t now = rig_.clock.now().count();
-        predicted_ = predicted_.told(wave, now);
-        settling_ = Second::fromSi(static_cast<double>(predicted_.settledNs(kSettledLens) - now) * 1e-9);
-        phase_.reset();
-    }
-    waitUntil(std::chrono::nanoseconds(predicted_.settledNs(kSettledLens)));
-    return {};
-}
-
 Result<void> LightCrafterStage::patternsRun(const dlpc350::PatternSequence& sequence) {
     if (running_ == sequence) return {};
     running_.reset();
@@ -116,33 +104,6 @@ Result<void> LightCrafterStage::patternsRun(const dlpc350::PatternSequence& sequ
     running_ = sequence;
     light_ = Light::white;
     return {};
-}
-
-/// Follows the projector's triggers until the sweep is locked to them and has settled where they moved it.
-Result<void> LightCrafterStage::inStep() {
-    if (told_->still()) return {};
-    const auto begun = rig_.clock.now();
-    auto unlocked = begun;
-    while (true) {
-        const auto phase = lens_->follow();
-        if (!phase) return lensFailed(phase.error());
-        phase_ = *phase;
-        const auto now = rig_.clock.now();
-        if (!phase->locked) unlocked = now;
-        if (now - unlocked > inNs(settling_) && phase->locked) break;
-        if (now - begun > kLongestLocking)
-            return lensesKnown_.wrong({Fault::device,
-                                       "The lens's sweep does not lock to the projector's triggers; check the cable "
-                                       "from TRIG_OUT_2 to the DAC box, and the echo's wire."});
-        wait(kListenEvery);
-    }
-    lockedSince_ = rig_.clock.now();
-    missingBefore_ = phase_->missing;
-    return {};
-}
-
-void LightCrafterStage::wait(Second time) {
-    if (time > 0.0_s) rig_.clock.wait(inNs(time));
 }
 
 void LightCrafterStage::waitUntil(std::chrono::nanoseconds time) {

@@ -7,11 +7,10 @@
 #include <string>
 
 #include "devices/clock.h"
-#include "devices/rig/stage_lens.h"
+#include "devices/rig/known_device.h"
+#include "devices/rig/lens_side.h"
 #include "devices/rig/stage_projector.h"
 #include "devices/rig/video_output.h"
-#include "devices/simulated/lens_model.h"
-#include "devices/stage.h"
 
 namespace ilf::devices {
 
@@ -25,7 +24,7 @@ struct PatternFrame {
 struct LightCrafterRig {
     std::function<Result<std::unique_ptr<StageProjector>>()> openProjector;
     /// Opens the lenses at rest at this power; refuses where no calibration says what current gives it.
-    std::function<Result<std::unique_ptr<StageLens>>(Dioptre rest)> openLens;
+    LensSide::Open openLens;
     std::shared_ptr<VideoOutput> video;
     std::function<Result<PatternFrame>(const Program&)> packed;
     Clock clock = Clock::steady();
@@ -48,7 +47,7 @@ struct LightCrafterRig {
 /// told is let go and opened again, at most once a second, by `heartbeat` and `safeLight`, which then tell it.
 class LightCrafterStage : public Stage {
 public:
-    explicit LightCrafterStage(LightCrafterRig rig) : rig_(std::move(rig)), rest_(rig_.rest) {}
+    explicit LightCrafterStage(LightCrafterRig rig);
     ~LightCrafterStage() override;
 
     Result<void> load(const Program& program) override;
@@ -71,32 +70,14 @@ private:
         PatternFrame frame;
     };
 
-    /// What is known of one device, for its line.
-    struct Known {
-        bool ever = false;  ///< it was there once
-        DeviceHealth health = DeviceHealth::absent;
-        std::string name, trouble;  ///< as last seen
-        /// It does what it is told now. What it did wrong stays said until slots are lit again.
-        void answered(const std::string& called);
-        /// It cannot be found, opened or spoken to.
-        tl::unexpected<Error> lost(const Error& error);
-        tl::unexpected<Error> missing(const Error& error);
-        tl::unexpected<Error> wrong(Error error);
-        void cleared();
-    };
-
     Result<void> began();
     /// Returns when the frame's light begins.
     Result<std::chrono::nanoseconds> lit(const VideoFrame& frame);
     Result<void> published(const VideoFrame& frame);
-    Result<void> lensSettled(const Waveform& wave, Second triggerAhead);
     Result<void> patternsRun(const dlpc350::PatternSequence& sequence);
-    Result<void> inStep();
     Result<void> confirmed();
     Result<void> videoWell();
     Result<void> projectorWell();
-    Result<void> lensWell();
-    Result<void> phaseWell();
     bool playsLikeLoaded() const;
     Result<void> reached(Dioptre rest);
     Result<void> reachedAgain();
@@ -105,17 +86,14 @@ private:
     Result<void> boardIsPlain(bool videoIsWhite, Waiting waiting);
     Result<void> backToVideo();
     std::string projectorLine() const;
-    std::string lensLine() const;
-    std::string phaseWords() const;
     std::vector<DeviceLine> deviceLines() const;
-    tl::unexpected<Error> lensFailed(const Error& error);
     tl::unexpected<Error> faulted(Error error);
-    void wait(Second time);
     void waitUntil(std::chrono::nanoseconds time);
 
     LightCrafterRig rig_;
+    LensSide lens_;
     std::unique_ptr<StageProjector> projector_;  ///< none: not opened, or lost
-    std::unique_ptr<StageLens> lens_;
+    KnownDevice projectorKnown_, displayKnown_;
     bool videoThere_ = false;  ///< took the last frame
     std::optional<std::chrono::nanoseconds> triedAt_;
 
@@ -123,22 +101,12 @@ private:
     bool ownWhite_ = false;             ///< the board was told to show it, whatever became of that
     bool safeTold_ = false;             ///< to all that can be reached, and nothing else since
     std::optional<Error> safeTrouble_;  ///< what first did not listen then
-    bool lensFailed_ = false;           ///< it must be opened anew once it rests
-    bool resting_ = false;              ///< the lens was told so and did not object
     VideoFrame white_;
     VideoMode mode_;
     std::optional<dlpc350::PatternSequence> running_;  ///< the board's patterns; none: plain video
-    std::optional<Waveform> told_;                     ///< none: the lenses rest
-    Second ahead_;
-    Dioptre rest_;
-    LensModel predicted_;
-    Second settling_;
     std::optional<Loaded> loaded_;
-    std::optional<PhaseState> phase_;
-    std::int64_t missingBefore_ = 0;  ///< triggers, when slots came on
-    Known projectorKnown_, displayKnown_, lensesKnown_;
-    std::optional<double> temperature_C_;
-    std::chrono::nanoseconds lockedSince_{0}, lightBegan_{0};
+    Hertz sweeps_;  ///< of the program begun last
+    std::chrono::nanoseconds lightBegan_{0};
 };
 
 }  // namespace ilf::devices

@@ -1,12 +1,7 @@
 // Whether the devices do what they were told, and what is done when they do not.
-#include <algorithm>
-#include <cmath>
 #include <exception>
-#include <utility>
 
-#include "core/plan/words.h"
 #include "devices/rig/lightcrafter_stage.h"
-#include "devices/simulated/simulated_stage.h"  // the budgets, which are the same
 #include "devices/video/found_display.h"
 
 namespace ilf::devices {
@@ -15,8 +10,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::chrono::nanoseconds kTryEvery = 1s;
-// The phase's worst error covers two seconds, at first those in which it was being aligned.
-constexpr std::chrono::nanoseconds kPhaseMemory = 2100ms;
 constexpr const char* kNoVideo =
     "The projector gets no video although its display is there; check the video cable at the projector's end, then "
     "TAKE.";
@@ -60,51 +53,16 @@ Result<void> LightCrafterStage::projectorWell() {
     return {};
 }
 
-Result<void> LightCrafterStage::lensWell() {
-    const auto condition = lens_->heartbeat();
-    if (!condition) return lensFailed(condition.error());
-    if (condition->sweeping != told_.has_value())
-        return lensesKnown_.wrong(
-            {Fault::device, "The lens does something else than it was told; was its driver restarted?"});
-    temperature_C_ = condition->temperature_C;
-    if (!told_ || !temperature_C_) return {};
-    const double planned_C =
-        std::clamp(*temperature_C_, told_->temperature_C, told_->temperature_C + std::max(0.0, told_->warming_C));
-    if (std::abs(*temperature_C_ - planned_C) <= kTemperatureBudget_C) return {};
-    return lensesKnown_.wrong({Fault::device, "The lens is at " + inWords(*temperature_C_, 1) +
-                                                  " C, too far from what its wave was planned for; let it come back, "
-                                                  "or plan again at this temperature."});
-}
-
-Result<void> LightCrafterStage::phaseWell() {
-    if (!running_ || !told_ || told_->still()) return {};
-    const auto phase = lens_->follow();
-    if (!phase) return lensFailed(phase.error());
-    phase_ = *phase;
-    if (!phase->locked)
-        return lensesKnown_.wrong(
-            {Fault::device, "The lens's sweep has lost the projector's triggers; check the trigger cable, then TAKE."});
-    if (rig_.clock.now() - lockedSince_ < kPhaseMemory || phase->most <= kPhaseBudget) return {};
-    return lensesKnown_.wrong({Fault::device, "Slots and lens were " + inWords(phase->most.in(1.0_ms), 2) +
-                                                  " ms apart; check the trigger cable, then TAKE."});
-}
-
 Result<void> LightCrafterStage::confirmed() {
-    return videoWell().and_then([&] { return projectorWell(); }).and_then([&] { return lensWell(); }).and_then([&] {
-        return phaseWell();
+    return videoWell().and_then([&] { return projectorWell(); }).and_then([&] {
+        return lens_.well(running_.has_value());
     });
 }
 
-/// Opens what is not open and makes it safe, so that all of it is known; lenses that rest elsewhere are opened anew.
+/// Opens what is not open and makes it safe, so that all of it is known.
 Result<void> LightCrafterStage::reached(Dioptre rest) {
-    if (lens_ && lens_->rest() != rest) {
-        auto rested = lens_->safe();
-        lens_.reset();
-        told_.reset();
-        if (!rested) return lensesKnown_.lost(rested.error());
-    }
-    rest_ = rest;
-    if (projector_ && lens_ && light_ != Light::unknown) return {};
+    if (auto rested = lens_.restsAt(rest); !rested) return rested;
+    if (projector_ && lens_.there() && light_ != Light::unknown) return {};
     return reachedAgain();
 }
 
@@ -121,13 +79,7 @@ Result<void> LightCrafterStage::reachedAgain() {
         else
             note(projectorKnown_.lost(opened.error()).value());
     }
-    if (!lens_) {
-        auto opened = rig_.openLens(rest_);
-        if (opened)
-            lens_ = *std::move(opened);
-        else
-            note(lensesKnown_.lost(opened.error()).value());
-    }
+    if (auto opened = lens_.opened(); !opened) note(opened.error());
     videoThere_ = true;  // to be tried, whatever it was
     makeSafe(Waiting::patient);
     if (!first) first = safeTrouble_;
@@ -136,7 +88,7 @@ Result<void> LightCrafterStage::reachedAgain() {
 }
 
 Result<void> LightCrafterStage::heartbeat() {
-    const bool all = projector_ && lens_ && videoThere_;
+    const bool all = projector_ && lens_.there() && videoThere_;
     if (all && light_ != Light::unknown) {
         if (const auto well = confirmed(); !well) return faulted(well.error());
         return {};
@@ -147,7 +99,7 @@ Result<void> LightCrafterStage::heartbeat() {
 
 void LightCrafterStage::safeLight() noexcept {
     try {
-        const bool all = projector_ && lens_ && videoThere_;
+        const bool all = projector_ && lens_.there() && videoThere_;
         const bool maySearch = !triedAt_ || rig_.clock.now() - *triedAt_ >= kTryEvery;
         if (!all && maySearch)
             (void)reachedAgain();
@@ -156,7 +108,6 @@ void LightCrafterStage::safeLight() noexcept {
     } catch (const std::exception&) {
         // Out of memory: what the devices do by themselves is left.
         light_ = Light::unknown;
-        resting_ = false;
     }
 }
 
@@ -219,30 +170,13 @@ void LightCrafterStage::makeSafe(Waiting waiting) {
     videoThere_ = white;
     bool plain = !white && boardIsPlain(false, Waiting::brief).has_value();
 
-    // Lenses that were let go at rest stay there.
-    if (lens_) {
-        const auto rested = lens_->safe();
-        resting_ = listened(rested);
-        if (!resting_) (void)lensesKnown_.lost(rested.error());
-        if (resting_ && !lensFailed_) lensesKnown_.answered(lens_->name());
-    }
-    const bool anew = std::exchange(lensFailed_, false);
-    if (!resting_ || anew) lens_.reset();
-    if (resting_) predicted_ = predicted_.told(stillWave(rest_, rest_, 60.0_Hz), rig_.clock.now().count());
-    told_.reset();
-    phase_.reset();
-
+    (void)listened(lens_.rest());
     if (!plain && (white || waiting == Waiting::patient)) plain = listened(boardIsPlain(white, waiting));
     if (!plain) projector_.reset();
     const bool slotsMayBeOn = light_ == Light::slotted && !white && !projector_;
     light_ = projector_ ? Light::white : slotsMayBeOn ? Light::slotted : Light::unknown;
     running_.reset();
     safeTold_ = true;
-}
-
-tl::unexpected<Error> LightCrafterStage::lensFailed(const Error& error) {
-    lensFailed_ = true;
-    return lensesKnown_.lost(error);
 }
 
 tl::unexpected<Error> LightCrafterStage::faulted(Error error) {
@@ -252,7 +186,7 @@ tl::unexpected<Error> LightCrafterStage::faulted(Error error) {
         error.what += " The projector's light is not known.";
     else if (ownWhite_)
         error.what += " The projector shows its own white.";
-    if (!resting_) error.what += " Where the lens is, is not known.";
+    if (!lens_.resting()) error.what += " Where the lens is, is not known.";
     return tl::unexpected<Error>(std::move(error));
 }
 

@@ -12,7 +12,7 @@
 
 #include "devices/plugin/loopback/loopback_projector.h"
 #include "devices/plugin/plugin_stage.h"
-#include "tests/devices/programs.h"
+#include "tests/devices/rig/scripted_lens.h"
 
 namespace ilf::test {
 
@@ -74,23 +74,16 @@ inline constexpr Size kSmall{8, 4};
 
 /// Loopback projector and lenses in one room: every call written down, failing when asked to, and judged by what the
 /// room sees.
-struct LoopbackRig {
+struct LoopbackRig : LensRoom {
     Loopback loopback;
-    /// Asked before each call of a device, by its name ("projector: swap", "lens: play").
-    std::function<bool(const std::string&)> failsAt;
-    bool failsAfterEffect = false;  ///< the order got through and its answer is lost
-    bool projectorGone = false, lensGone = false;
-    bool locks = true;
-    double temperature_C = 30.0;
-    Second phaseError;
-    std::optional<Waveform> wave;  ///< the lens's; none: it rests
-    bool whiteFailed = false;      ///< the last order for it
-    double rate_Hz = 0.0;          ///< of the slots at the last call
-    std::vector<std::string> log, violations;
+    bool projectorGone = false;
+    bool whiteFailed = false;  ///< the last order for it
+    double rate_Hz = 0.0;      ///< of the slots at the last call
     devices::PluginStage stage;
 
     LoopbackRig() : stage(made()) { loopback.judged(&LoopbackRig::judgedByRoom, this); }
-    ~LoopbackRig() {
+    ~LoopbackRig() override {
+        failsAt = nullptr;
         stage.safeLight();  // while all of the above is still there
     }
     LoopbackRig(const LoopbackRig&) = delete;
@@ -99,7 +92,11 @@ struct LoopbackRig {
     Result<void> played(const Program& program) {
         return stage.load(program).and_then([&] { return stage.swap(); });
     }
-    bool slotted() const { return loopback.slotted(); }
+    LensRoom& lensRoom() { return *this; }
+    bool lit() const { return !whiteFailed && !slotted(); }
+    void pass(std::chrono::nanoseconds time) const { loopback.pass(time); }
+    bool slotted() const override { return loopback.slotted(); }
+    bool triggersCome() const override { return loopback.slots() != 0; }
     bool safe() const { return !slotted() && !wave; }
     /// The calls since the last time, without those that only ask; uploads in a row are one.
     std::vector<std::string> orders() {
@@ -112,25 +109,23 @@ struct LoopbackRig {
         log.clear();
         return told;
     }
-    /// What the room sees now must be what is promised.
-    void judge(const std::string& at) {
+    void slottedNever(const std::string& at) override {
+        if (slotted()) violations.push_back("slotted light at " + at);
+    }
+    void judged(const std::string& at) override {
         if (slotted() && !wave && !whiteFailed) violations.push_back("slotted light at " + at + ", lens at rest");
         const double rate = loopback.slotRate_Hz();
         if (slotted() && rate_Hz > 0.0 && rate != rate_Hz && rate > 0.0)
             violations.push_back("another slot rate under slotted light at " + at);
         rate_Hz = rate;
     }
-    bool fails(const std::string& call) {
-        judge("before " + call);
-        log.push_back(call);
-        return failsAt && failsAt(call);
-    }
 
 private:
     static int judgedByRoom(const char* call, void* user) {
         auto& rig = *static_cast<LoopbackRig*>(user);
         const std::string name = std::string("projector: ") + call;
-        const bool failing = rig.fails(name) || rig.projectorGone;
+        rig.judged("before " + name);
+        const bool failing = rig.called(name) || rig.projectorGone;
         if (name == "projector: steady_white") rig.whiteFailed = failing && !rig.failsAfterEffect;
         if (name == "projector: close") rig.whiteFailed = false;
         if (!failing) return 0;
@@ -139,69 +134,13 @@ private:
     devices::PluginRig made();
 };
 
-class LoopbackLens : public devices::StageLens {
-public:
-    LoopbackLens(LoopbackRig& rig, Dioptre rest) : rig_(rig), rest_(rest) {}
-
-    Result<Second> play(const Waveform& wave, Second) override {
-        auto done = told("lens: play", [&] {
-            if (rig_.slotted()) rig_.violations.push_back("another wave under slotted light");
-            rig_.wave = wave;
-            follows_ = 0;
-        });
-        if (!done) return tl::unexpected(done.error());
-        return 60.0_ms;
-    }
-    Result<devices::PhaseState> follow() override {
-        auto done = told("lens: follow", [] {});
-        if (!done) return tl::unexpected(done.error());
-        if (rig_.loopback.slots() == 0) return fail(Fault::device, "The projector's trigger is lost.");
-        devices::PhaseState phase;
-        phase.locked = rig_.locks && ++follows_ > 3;
-        phase.most = rig_.phaseError;
-        phase.driftPpm = 12.0;
-        return phase;
-    }
-    Result<devices::LensCondition> heartbeat() override {
-        auto done = told("lens: heartbeat", [] {});
-        if (!done) return tl::unexpected(done.error());
-        return devices::LensCondition{rig_.wave.has_value(), rig_.temperature_C};
-    }
-    Result<void> safe() override {
-        return told("lens: safe", [&] { rig_.wave.reset(); });
-    }
-    Dioptre rest() const override { return rest_; }
-    std::string name() const override { return "scripted lenses"; }
-
-private:
-    template <class Effect>
-    Result<void> told(const std::string& call, Effect effect) {
-        const bool failing = rig_.fails(call);
-        const auto failed = fail(Fault::device, "It failed (" + call + ").");
-        if (rig_.lensGone || (failing && !rig_.failsAfterEffect)) return failed;
-        effect();
-        rig_.judge("after " + call);
-        if (failing) return failed;
-        return {};
-    }
-
-    LoopbackRig& rig_;
-    Dioptre rest_;
-    int follows_ = 0;
-};
-
 inline devices::PluginRig LoopbackRig::made() {
     devices::PluginRig rig;
     rig.openProjector = [this]() -> Result<std::unique_ptr<devices::PluginProjector>> {
         if (projectorGone) return fail(Fault::notFound, "There is no projector.");
         return devices::openedPlugin(loopbackFile(), "loopback", "size=8x4", loopback.clock());
     };
-    rig.openLens = [this](Dioptre rest) -> Result<std::unique_ptr<devices::StageLens>> {
-        if (lensGone) return fail(Fault::notFound, "There are no lenses.");
-        log.push_back("lens: opened at " + std::to_string(rest.si()).substr(0, 3));
-        wave.reset();  // opening stops what ran
-        return std::make_unique<LoopbackLens>(*this, rest);
-    };
+    rig.openLens = [this](Dioptre rest) { return ScriptedLens::opened(*this, rest); };
     rig.clock = loopback.clock();
     return rig;
 }

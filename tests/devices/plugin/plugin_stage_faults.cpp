@@ -20,59 +20,14 @@ Program slower(std::uint32_t seed) {
     return slow;
 }
 
-/// A show from its start to its end; stops at the first failure, as a player does.
 Result<void> evening(LoopbackRig& rig) {
-    for (const auto& one : {program(1), program(4), program(2, 4.27_D), slower(3)}) {
-        if (const auto shown = rig.played(one); !shown) return shown;
-        rig.loopback.pass(3s);
-        if (const auto well = rig.stage.heartbeat(); !well) return well;
-    }
-    rig.stage.safeLight();
-    return rig.stage.heartbeat();
+    return test::eveningOf(rig, {program(1), program(4), program(2, 4.27_D), slower(3)});
 }
 
 }  // namespace
 
 TEST_CASE("plugin stage: whichever call fails, at whichever time, the scene is lit and the lens rests") {
-    for (const bool afterEffect : {false, true}) {
-        bool untouched = false;
-        for (int failing = 1; !untouched; ++failing) {
-            REQUIRE(failing < 500);
-            CAPTURE(failing);
-            CAPTURE(afterEffect);
-            LoopbackRig rig;
-            int calls = 0;
-            std::string failed;
-            rig.failsAfterEffect = afterEffect;
-            rig.failsAt = [&](const std::string& call) {
-                if (++calls != failing) return false;
-                failed = call;
-                return true;
-            };
-            const auto done = evening(rig);
-            untouched = calls < failing;
-            if (untouched) {
-                CHECK(done);
-                rig.failsAt = nullptr;
-                break;
-            }
-            CAPTURE(failed);
-            const std::string named = failed.starts_with("projector: ") ? failed.substr(11) : failed;
-            if (!done) CHECK(done.error().what.find("It failed (" + named + ").") != std::string::npos);
-            // Whatever was lost while it was made safe is told again within seconds, and nothing starts slots.
-            for (int beat = 0; beat < 30; ++beat) {
-                rig.loopback.pass(100ms);
-                if (!rig.stage.heartbeat()) rig.stage.safeLight();
-                if (!done) CHECK_FALSE(rig.slotted());
-            }
-            CHECK(rig.safe());
-            CHECK(rig.stage.report().well);
-            CHECK(rig.violations == Calls{});
-            CHECK(rig.played(program(5)));
-            CHECK(rig.slotted());
-            rig.failsAt = nullptr;
-        }
-    }
+    test::eachCallFails<LoopbackRig>(evening, program(5), 100);
 }
 
 TEST_CASE("plugin stage: what fails for good from any call on is left, and the other is made safe") {
@@ -158,7 +113,7 @@ TEST_CASE("plugin stage: whatever is asked and whatever fails, slots never meet 
                     faulted = true;
                 }
             }
-            rig.judge("the end of a step");
+            rig.judged("the end of a step");
             RC_ASSERT(rig.violations.empty());
             RC_ASSERT(!faulted || !rig.slotted() || rig.whiteFailed);
         }

@@ -17,16 +17,9 @@ Program slower(std::uint32_t seed) {
     return program;
 }
 
-/// A show from its start to its end; stops at the first failure, as a player does.
 Result<void> evening(ScriptedRig& rig) {
-    for (const auto& program :
-         {test::program(1), test::dabbed(test::program(1), 9), test::program(2, 4.27_D), slower(3)}) {
-        if (const auto shown = rig.played(program); !shown) return shown;
-        rig.room.now += 3s;
-        if (const auto well = rig.stage.heartbeat(); !well) return well;
-    }
-    rig.stage.safeLight();
-    return rig.stage.heartbeat();
+    return test::eveningOf(rig,
+                           {test::program(1), test::dabbed(test::program(1), 9), test::program(2, 4.27_D), slower(3)});
 }
 
 /// A show whose display is pulled and put back, and that goes on.
@@ -49,84 +42,13 @@ Result<void> lostAndBack(ScriptedRig& rig) {
 
 }  // namespace
 
-TEST_CASE("lightcrafter stage: whichever call fails around a lost display, the scene is lit and the lens rests") {
-    for (const bool afterEffect : {false, true}) {
-        for (int failing = 1;; ++failing) {
-            REQUIRE(failing < 300);
-            CAPTURE(failing);
-            CAPTURE(afterEffect);
-            int calls = 0;
-            std::string failed;
-            ScriptedRig rig;
-            rig.room.failsAfterEffect = afterEffect;
-            rig.room.failsAt = [&](const std::string& call) {
-                if (++calls != failing) return false;
-                failed = call;
-                return true;
-            };
-            const auto done = lostAndBack(rig);
-            if (calls < failing) {
-                CHECK(done);
-                CHECK(failing > 60);
-                break;
-            }
-            CAPTURE(failed);
-            rig.video->giveBack();
-            for (int beat = 0; beat < 30; ++beat) {
-                rig.room.now += 100ms;
-                if (!rig.stage.heartbeat()) rig.stage.safeLight();
-            }
-            CHECK(rig.room.lit());
-            CHECK_FALSE(rig.room.slotted());
-            CHECK_FALSE(rig.room.wave);
-            CHECK(rig.stage.report().well);
-            CHECK(rig.room.violations == Calls{});
-            CHECK(rig.played(test::program(5)));
-            CHECK(rig.room.slotted());
-        }
-    }
+TEST_CASE("lightcrafter stage: whichever call fails, at whichever time, the scene is lit and the lens rests") {
+    test::eachCallFails<ScriptedRig>(evening, test::program(5), 80);
 }
 
-TEST_CASE("lightcrafter stage: whichever call fails, at whichever time, the scene is lit and the lens rests") {
-    for (const bool afterEffect : {false, true}) {
-        bool untouched = false;
-        for (int failing = 1; !untouched; ++failing) {
-            REQUIRE(failing < 300);
-            CAPTURE(failing);
-            CAPTURE(afterEffect);
-            int calls = 0;  // before the rig, whose stage makes safe light when it goes
-            std::string failed;
-            ScriptedRig rig;
-            rig.room.failsAfterEffect = afterEffect;
-            rig.room.failsAt = [&](const std::string& call) {
-                if (++calls != failing) return false;
-                failed = call;
-                return true;
-            };
-            const auto done = evening(rig);
-            untouched = calls < failing;
-            if (untouched) {
-                CHECK(done);
-                break;
-            }
-            CAPTURE(failed);
-            if (!done) CHECK(done.error().what.find("It failed (" + failed + ").") == 0);
-            // Whatever was lost while it was made safe is told again within seconds, and nothing starts slots.
-            for (int beat = 0; beat < 30; ++beat) {
-                rig.room.now += 100ms;
-                if (!rig.stage.heartbeat()) rig.stage.safeLight();
-                if (!done) CHECK_FALSE(rig.room.slotted());
-            }
-            CHECK(rig.room.whiteShown);
-            CHECK(rig.room.lit());
-            CHECK_FALSE(rig.room.slotted());
-            CHECK_FALSE(rig.room.wave);
-            CHECK(rig.stage.report().well);
-            CHECK(rig.room.violations == Calls{});
-            CHECK(rig.played(test::program(5)));
-            CHECK(rig.room.slotted());
-        }
-    }
+TEST_CASE("lightcrafter stage: whichever call fails around a lost display, the scene is lit and the lens rests") {
+    test::eachCallFails<ScriptedRig>(lostAndBack, test::program(5), 60,
+                                     [](ScriptedRig& rig) { rig.video->giveBack(); });
 }
 
 TEST_CASE("lightcrafter stage: what fails for good from any call on is left, and all others are made safe") {

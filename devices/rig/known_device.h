@@ -17,6 +17,8 @@ public:
     void answered(const std::string& name);
     /// It cannot be found, opened or spoken to.
     tl::unexpected<Error> lost(Error error);
+    /// It is not there.
+    tl::unexpected<Error> missing(Error error);
     /// It answers, and does something else than it was told.
     tl::unexpected<Error> wrong(Error error);
     void cleared();

@@ -5,9 +5,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "devices/clock.h"
-#include "devices/plugin/known_device.h"
+#include "devices/rig/known_device.h"
 #include "devices/rig/stage_lens.h"
 #include "devices/simulated/lens_model.h"
 #include "devices/stage.h"
@@ -18,7 +19,9 @@ namespace ilf::devices {
 class LensSide {
 public:
     using Open = std::function<Result<std::unique_ptr<StageLens>>(Dioptre rest)>;
-    LensSide(Open open, Clock clock) : open_(std::move(open)), clock_(std::move(clock)) {}
+    /// `triggers`: the projector's output that keeps the time, as operators find it written.
+    LensSide(Open open, Clock clock, std::string triggers = "the projector's trigger output")
+        : open_(std::move(open)), clock_(std::move(clock)), triggers_(std::move(triggers)) {}
 
     bool there() const { return lens_ != nullptr; }
     /// Told to rest, without objection.
@@ -53,8 +56,9 @@ private:
 
     Open open_;
     Clock clock_;
+    std::string triggers_;
     std::unique_ptr<StageLens> lens_;
-    KnownDevice known_{"lenses", "lenses"};
+    KnownDevice known_{"lenses", "USB-1208FS-Plus"};
     bool failed_ = false;  ///< to be opened anew once they rest
     bool resting_ = false;
     std::optional<Waveform> told_;  ///< none: they rest

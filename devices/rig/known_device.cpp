@@ -1,4 +1,4 @@
-#include "devices/plugin/known_device.h"
+#include "devices/rig/known_device.h"
 
 namespace ilf::devices {
 
@@ -9,8 +9,14 @@ void KnownDevice::answered(const std::string& name) {
 }
 
 tl::unexpected<Error> KnownDevice::lost(Error error) {
-    const bool missing = error.fault == Fault::notFound;
-    health_ = !missing ? DeviceHealth::silent : ever_ ? DeviceHealth::unplugged : DeviceHealth::absent;
+    if (error.fault == Fault::notFound) return missing(std::move(error));
+    health_ = DeviceHealth::silent;
+    trouble_ = error.what;
+    return tl::unexpected<Error>(std::move(error));
+}
+
+tl::unexpected<Error> KnownDevice::missing(Error error) {
+    health_ = ever_ ? DeviceHealth::unplugged : DeviceHealth::absent;
     trouble_ = error.what;
     return tl::unexpected<Error>(std::move(error));
 }

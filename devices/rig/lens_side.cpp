@@ -1,7 +1,6 @@
-#include "devices/plugin/lens_side.h"
+#include "devices/rig/lens_side.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -74,8 +73,9 @@ Result<void> LensSide::inStep() {
         if (!phase->locked) unlocked = now;
         if (phase->locked && now - unlocked > inNs(settling_)) break;
         if (now - begun > kLongestLocking)
-            return known_.wrong({Fault::device, "The lens's sweep does not lock to the projector's triggers; check the "
-                                                "cable from its trigger output to the DAC box, and the echo's wire."});
+            return known_.wrong(
+                {Fault::device, "The lens's sweep does not lock to the projector's triggers; check the cable from " +
+                                    triggers_ + " to the DAC box, and the echo's wire."});
         wait(kListenEvery);
     }
     lockedSince_ = clock_.now();
@@ -157,7 +157,7 @@ void LensSide::report(StageReport& into, bool slotted) const {
             StageTiming{phase_->locked, phase_->most, phase_->jitter, phase_->driftPpm,
                         static_cast<std::uint64_t>(std::max<std::int64_t>(0, phase_->missing - missingBefore_))};
     if (lens_) into.lensTemperature_C = temperature_C_;
-    into.lensName = known_.name();
+    into.lensName = lens_ ? known_.name() : "lenses";
     if (!lens_)
         into.lensLine = resting_ ? "lenses: at rest after a fault, to be opened again"
                                  : "lenses: no answer; where they are is not known";
@@ -171,10 +171,14 @@ void LensSide::report(StageReport& into, bool slotted) const {
 
 DeviceLine LensSide::line() const {
     if (!told_) return known_.line("They rest at " + ilf::inWords(rest_) + "; TAKE plays the sweep.");
-    const std::string does = told_->still()
-                                 ? "They hold " + ilf::inWords(told_->low)
-                                 : "They sweep " + ilf::inWords(told_->low) + " to " + ilf::inWords(told_->high);
-    return known_.line(does + phaseWords() + ".");
+    const std::string does =
+        told_->still() ? "They hold " + ilf::inWords(told_->low)
+                       : "They sweep " + ilf::inWords(told_->low.si(), 2) + " to " + ilf::inWords(told_->high);
+    // Without a sensor nothing can be trimmed to it.
+    return known_.line(does + phaseWords() +
+                       (temperature_C_ ? ", at " + ilf::inWords(*temperature_C_, 1) + " degrees C."
+                                       : "; their temperature is not measured, so what warming coils do to their "
+                                         "powers is not made up for."));
 }
 
 }  // namespace ilf::devices
