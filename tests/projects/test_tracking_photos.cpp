@@ -5,12 +5,14 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <opencv2/aruco.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <regex>
 #include <string>
 #include <vector>
 
+#include "core/track/follower.h"
 #include "core/track/marker.h"
 #include "core/track/planar.h"
 #include "tests/support/test_data.h"
@@ -72,6 +74,58 @@ Quad grownBy(const Quad& quad, double by) {
     return out;
 }
 
+/// How far the sides of `quad` lie outside those of `reference` on average. Corners clockwise.
+double outside(const Quad& reference, const Quad& quad) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto &a = reference[i], &b = reference[(i + 1) % 4], &p = quad[i], &q = quad[(i + 1) % 4];
+        const double length = std::hypot(b.x - a.x, b.y - a.y);
+        sum += 0.5 * ((p.x + q.x - a.x - b.x) * (b.y - a.y) - (p.y + q.y - a.y - b.y) * (b.x - a.x)) / length;
+    }
+    return 0.25 * sum;
+}
+
+/// What is left of the photograph, as a share of its contrast, when the marker's whole pattern is drawn at these
+/// corners, blurred as suits it best, and lit with a gradient: asks all pixels on `area`, not the outline's alone.
+double misfit(const Image<std::uint8_t>& grey, int dictionary, int id, const Quad& corners, const Quad& area) {
+    const auto set = cv::aruco::getPredefinedDictionary(dictionary);
+    const int side = set->markerSize + 4;  // with its border and a white rim
+    cv::Mat cells(side, side, CV_8U, cv::Scalar(255)), inner;
+    cv::aruco::drawMarker(set, id, side - 2, inner, 1);
+    inner.copyTo(cells(cv::Rect(1, 1, side - 2, side - 2)));
+    const Quad square = cornersOf(PixelRect<CameraFrame>{1, 1, side - 1, side - 1});
+    const Motion drawn = motionBetween(corners, square).value(), asked = motionBetween(area, square).value();
+    const auto box = boxAround(area).grown(6).clipped(grey.size());
+    constexpr int kFine = 4;
+    cv::Mat fine(kFine * box.height(), kFine * box.width(), CV_32F);
+    for (int y = 0; y < fine.rows; ++y) {
+        for (int x = 0; x < fine.cols; ++x) {
+            const auto c = drawn(Point<CameraFrame>{box.x0 + (x + 0.5) / kFine, box.y0 + (y + 0.5) / kFine});
+            fine.at<float>(y, x) = cells.at<std::uint8_t>(std::clamp(static_cast<int>(c.y), 0, side - 1),
+                                                          std::clamp(static_cast<int>(c.x), 0, side - 1));
+        }
+    }
+    double least = 1e9;
+    for (const double blur_px : {0.2, 0.4, 0.6, 0.8}) {
+        cv::Mat blurred, pattern, light;
+        cv::GaussianBlur(fine, blurred, {0, 0}, kFine * blur_px);
+        cv::resize(blurred, pattern, {box.width(), box.height()}, 0, 0, cv::INTER_AREA);
+        cv::Mat terms(0, 4, CV_64F), values(0, 1, CV_64F);
+        for (int y = 0; y < pattern.rows; ++y) {
+            for (int x = 0; x < pattern.cols; ++x) {
+                const auto c = asked(Point<CameraFrame>{box.x0 + x + 0.5, box.y0 + y + 0.5});
+                if (std::min(c.x, c.y) < 0.4 || std::max(c.x, c.y) > side - 0.4) continue;
+                terms.push_back(cv::Mat(cv::Matx14d(1.0, static_cast<double>(pattern.at<float>(y, x)) / 255.0, x, y)));
+                values.push_back(static_cast<double>(grey.at(box.x0 + x, box.y0 + y)));
+            }
+        }
+        cv::solve(terms, values, light, cv::DECOMP_QR);
+        const cv::Mat left = values - terms * light;
+        least = std::min(least, std::sqrt(left.dot(left) / left.rows) / std::abs(light.at<double>(1)));
+    }
+    return least;
+}
+
 }  // namespace
 
 TEST_CASE("AprilTags in photographs: corners as the AprilTag program finds them") {
@@ -80,12 +134,15 @@ TEST_CASE("AprilTags in photographs: corners as the AprilTag program finds them"
         std::size_t fewest;  // OpenCV's own detector finds so many (GROUND_TRUTH.json)
     };
     Errors errors;
+    double shift = 0.0, oursLeft = 0.0, printedLeft = 0.0;
+    int pairs = 0, betterOurs = 0;
     for (const Photo& p : {Photo{"33369213973_9d9bb4cc96_c", 11}, Photo{"34085369442_304b6bafd9_c", 4},
                            Photo{"34139872896_defdb2f8d9_c", 7}}) {
         const auto path = testData("04_tracking/apriltag/" + std::string(p.name) + ".jpg");
         if (!path) return;
         const auto tags = printedTags(testData("04_tracking/apriltag/" + std::string(p.name) + ".txt")->string());
-        const auto seen = findMarkers(photo(path->string()), {"APRILTAG_36h11", {0}, {}, 1});
+        const auto grey = photo(path->string());
+        const auto seen = findMarkers(grey, {"APRILTAG_36h11", {0}, {}, 1});
         REQUIRE(seen);
         CHECK(seen->size() >= p.fewest);
         for (const Quad& tag : tags) {
@@ -96,15 +153,36 @@ TEST_CASE("AprilTags in photographs: corners as the AprilTag program finds them"
                 CHECK(std::hypot(a.x - b.x, a.y - b.y) < 0.5);
                 for (std::size_t k = 0; k < 4; ++k)
                     errors.all.push_back(std::hypot(tag[k].x - marker.corners[k].x, tag[k].y - marker.corners[k].y));
+                shift += outside(tag, marker.corners);
+                const double ours = misfit(grey, cv::aruco::DICT_APRILTAG_36h11, 0, marker.corners, marker.corners);
+                const double printed = misfit(grey, cv::aruco::DICT_APRILTAG_36h11, 0, tag, marker.corners);
+                oursLeft += ours;
+                printedLeft += printed;
+                betterOurs += ours < printed ? 1 : 0;
+                ++pairs;
             }
         }
     }
+    REQUIRE(pairs > 0);
     MESSAGE(errors.all.size(), " corners: rms ", errors.rms(), " px, median ", errors.quantile(0.5), ", worst ",
             errors.quantile(1.0), ", within 0.5 px ", 100 * errors.within(0.5), " %");
+    MESSAGE("sides lie ", shift / pairs, " px outside theirs; of the contrast, ", 100 * oursLeft / pairs,
+            " % is not explained by our corners, ", 100 * printedLeft / pairs,
+            " % not by theirs; ours explain more of ", betterOurs, " of ", pairs, " tags");
+    // Both mean the same edge with the same pixel centres: no half pixel is lost anywhere.
+    CHECK(std::abs(shift / pairs) < 0.05);
+    // What is between them is theirs rather than ours. (Another release of their program, 3.3, is within half a pixel
+    // of these numbers in 73 % of the corners; a fit of corners and blur to all pixels of each tag, good to 0.04 px on
+    // drawn tags, is within half a pixel of ours in 94 %, of theirs in 77 %.)
+    CHECK(oursLeft < 0.85 * printedLeft);
+    CHECK(betterOurs >= 0.85 * pairs);
+    CHECK(errors.within(0.5) >= 0.78);
     CHECK(errors.all.size() >= 80);
-    CHECK(errors.rms() < 0.5);
+    // Their program looks at whole pixels along each side, which for one side share a phase: its lines are off by
+    // anything up to half a pixel, evenly. Of two that meet, that is 0.41 px rms, half of all within 0.40, and 0.71 at
+    // most; ours add up to 0.14 (test_marker) on tags of 15 px.
+    CHECK(errors.rms() < 0.42);
     CHECK(errors.quantile(0.5) < 0.4);
-    // Their program samples whole pixels, and the smallest tags here are 15 px wide.
     CHECK(errors.within(0.85) == 1.0);
 }
 
@@ -113,6 +191,7 @@ TEST_CASE("ArUco markers in photographs: corners about the whole pixels of OpenC
     if (!path) return;
     const auto truth = nlohmann::json::parse(std::ifstream(*path));
     Errors errors, middles;
+    double shift = 0.0;
     for (const std::string file : {"aruco/choriginal.jpg", "aruco/singlemarkersoriginal.jpg"}) {
         const auto& about = truth.at(file);
         const auto ids = about.at("ids").get<std::vector<int>>();
@@ -129,6 +208,7 @@ TEST_CASE("ArUco markers in photographs: corners about the whole pixels of OpenC
                 dark[k] = {c.at(0).get<double>() + 0.5, c.at(1).get<double>() + 0.5};
             }
             const Quad edge = grownBy(dark, 0.5);
+            shift += outside(edge, marker.corners);
             for (std::size_t k = 0; k < 4; ++k)
                 errors.all.push_back(std::hypot(edge[k].x - marker.corners[k].x, edge[k].y - marker.corners[k].y));
             const auto a = middleOf(edge), b = middleOf(marker.corners);
@@ -137,8 +217,11 @@ TEST_CASE("ArUco markers in photographs: corners about the whole pixels of OpenC
     }
     MESSAGE(errors.all.size(), " corners: rms ", errors.rms(), " px, worst ", errors.quantile(1.0), ", within 0.5 px ",
             100 * errors.within(0.5), " %; middles: rms ", middles.rms(), " px, worst ", middles.quantile(1.0));
-    CHECK(errors.rms() < 0.55);
-    CHECK(errors.quantile(1.0) < 0.9);
+    // Besides the rounding a contour's corner lies anywhere on the last pixel of a side (0.29 rms): 0.50 together. At
+    // most the rounding and 0.15 of ours. Four together have half of that, and the worst of 23 is within twice it.
+    CHECK(errors.rms() < 0.52);
+    CHECK(errors.quantile(1.0) < 0.86);
+    CHECK(middles.rms() < 0.25);
     CHECK(middles.quantile(1.0) < 0.5);
 }
 
@@ -152,7 +235,7 @@ TEST_CASE("a printed box is found in a cluttered photograph where SIFT finds it"
     REQUIRE(pattern);
     const auto seen = findPlanar(**pattern, scene);
     REQUIRE(seen);
-    CHECK(seen->confidence > 0.6);
+    CHECK(seen->confidence > FollowLimits{}.takeUp);
     const Quad corners = moved(cornersOf((*pattern)->patch), seen->motion);
     Errors errors;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -160,6 +243,8 @@ TEST_CASE("a printed box is found in a cluttered photograph where SIFT finds it"
             std::hypot(quad.at(k).at(0).get<double>() - corners[k].x, quad.at(k).at(1).get<double>() - corners[k].y));
     }
     MESSAGE("corners off SIFT's by rms ", errors.rms(), " px, ", seen->inliers, " of ", seen->asked, " points agree");
+    // Both homographies are of some 50 points of 1 px each, known to 0.14 px in their middle and to three times that at
+    // corners that lie outside the points: 0.6 px between the two, the worst of eight coordinates within 2.5 of them.
     CHECK(errors.quantile(1.0) < 1.5);
 
     SUBCASE("from there it is followed, also under another light and from 12 px off") {
@@ -173,13 +258,14 @@ TEST_CASE("a printed box is found in a cluttered photograph where SIFT finds it"
         const auto again =
             followPlanar(**pattern, {scene.size(), 1, std::vector<std::uint8_t>(dim.datastart, dim.dataend)}, off);
         REQUIRE(again);
+        // One homography against itself under another light: less than one against SIFT's.
         CHECK(farthestCorner(corners, moved(cornersOf((*pattern)->patch), again->motion)) < 1.5);
     }
     SUBCASE("it is not found where it is not") {
         const auto other = testData("04_tracking/aruco/choriginal.jpg");
         CHECK(!findPlanar(**pattern, photo(other->string())));
         const auto wrong = followPlanar(**pattern, photo(other->string()), seen->motion);
-        CHECK((!wrong || wrong->confidence < 0.3));
+        CHECK((!wrong || wrong->confidence < FollowLimits{}.keep));
     }
 }
 

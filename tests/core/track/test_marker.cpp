@@ -40,7 +40,13 @@ TEST_CASE("a marker's corners are found within 0.15 px, turned, slanted and in n
         RC_ASSERT(seen.has_value());
         RC_ASSERT(seen->size() == 1U);
         RC_ASSERT(seen->front().id == 7);
+        // An edge is found to noise x sqrt(3 pixels of its rise) / step = 2 x 1.7 / 170 = 0.02 px; a side of 28 px has
+        // 19 of them, so its line's end is known to 2 x 0.02 / sqrt(19) = 0.01, a corner of two slanted ones to 0.016.
+        // The worst of 800 coordinates is within 4.5 deviations, 0.07, and bilinear steps between pixels bend the rise
+        // of a slanted edge by up to 0.06 more.
         RC_ASSERT(farthestCorner(seen->front().corners, truth) < 0.15);
+        // Nine in ten places along the outline have a clear edge (near corners another side's bends it), and 0.15 px
+        // about the lines take another 6 %.
         RC_ASSERT(seen->front().confidence > 0.8);
     });
 }
@@ -51,6 +57,8 @@ TEST_CASE("the corners come in the marker's own order, clockwise from its top le
         const auto seen = findMarkers(drawnMarker({}, cv::aruco::DICT_6X6_250, 23, truth), {"6X6_250", {23}, {}, 1});
         REQUIRE(seen);
         REQUIRE(seen->size() == 1);
+        // Without noise: what bilinear steps leave (above), and 8 x 8 samples of the drawing, 1/16 px. Another corner
+        // of the marker would be 60 px away.
         CHECK(farthestCorner(seen->front().corners, truth) < 0.1);
     }
 }
@@ -89,7 +97,8 @@ TEST_CASE("a faint marker is less sure than a clear one") {
     const auto weak = findMarkers(drawnMarker(faint, cv::aruco::DICT_APRILTAG_36h11, 7, truth), searchFor({7}));
     REQUIRE(clear->size() == 1);
     REQUIRE(weak->size() == 1);
-    CHECK(weak->front().confidence < 0.7 * clear->front().confidence);
+    // A step of 20 grey values is half of what counts as sure (40); the rest of the outline is as clear.
+    CHECK(weak->front().confidence < 0.6 * clear->front().confidence);
 }
 
 TEST_CASE("unknown dictionaries and numbers are refused in words") {

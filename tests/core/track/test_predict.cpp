@@ -31,7 +31,8 @@ TEST_CASE("constant motion is predicted exactly, from three sightings on, at any
             track = tracked(track, ms(t), at(t));
         }
         const double ahead = *rc::gen::inRange(0, 101);
-        RC_ASSERT(farthestCorner(predicted(track, ms(t + ahead)), at(t + ahead)) < 1e-6);
+        // Rounding: 1e-16 of some thousand pixels and of 6 s at 4 px/ms, magnified by 100 ms over 2 frames of 8 ms.
+        RC_ASSERT(farthestCorner(predicted(track, ms(t + ahead)), at(t + ahead)) < 1e-8);
     });
 }
 
@@ -52,7 +53,9 @@ TEST_CASE("what stands still scatters no more when predicted 60 ms ahead than wh
         saidSquares += std::pow(said[0].x - 200, 2) + std::pow(said[0].y - 300, 2);
     }
     MESSAGE("rms seen ", std::sqrt(seenSquares / 3000), " px, predicted ", std::sqrt(saidSquares / 3000), " px");
-    CHECK(saidSquares < 0.6 * seenSquares);
+    // A mean of eight has an eighth of the squares; where chance passes for a motion (once in a thousand) or cuts off
+    // old sightings there are fewer to average: three at least.
+    CHECK(saidSquares < 0.2 * seenSquares);
 }
 
 TEST_CASE("in steady motion with noise, prediction beats what was last seen by far") {
@@ -70,7 +73,11 @@ TEST_CASE("in steady motion with noise, prediction beats what was last seen by f
         said = std::max(said, farthestCorner(predicted(track, ms(t + 63)), truth));
     }
     MESSAGE("worst lag at 0.4 px/ms and 63 ms: ", still, " px seen, ", said, " px predicted");
-    CHECK(said < 0.12 * still);
+    // Still, it is 0.4 x 63 = 25 px off. A line through n sightings T apart is known D after their middle to
+    // noise x sqrt(1 / n + D^2 / sum t^2): of four, the fewest here, D = 113 ms and 0.16 px; of eight 0.09. The worst
+    // of 300 is within 4.5 deviations.
+    CHECK(still > 25.0);
+    CHECK(said < 4.5 * 0.16);
 }
 
 TEST_CASE("a stop is noticed: the overshoot is gone after three sightings") {
@@ -80,7 +87,8 @@ TEST_CASE("a stop is noticed: the overshoot is gone after three sightings") {
     const Quad end = squareAt(70, 0);
     for (int i = 8; i < 12; ++i)
         track = tracked(track, ms(33.3 * i), end);
-    CHECK(farthestCorner(predicted(track, ms(33.3 * 11 + 60)), end) < 0.01);
+    // Exactly: what was seen on the way is no part of the line any more.
+    CHECK(farthestCorner(predicted(track, ms(33.3 * 11 + 60)), end) < 1e-9);
 }
 
 TEST_CASE("nothing is predicted farther ahead than the limit") {
@@ -88,7 +96,7 @@ TEST_CASE("nothing is predicted farther ahead than the limit") {
     for (int i = 0; i < 5; ++i)
         track = tracked(track, ms(20.0 * i), squareAt(4.0 * i, 0));
     const Quad far = predicted(track, 60.0_s);
-    CHECK(farthestCorner(far, squareAt(16 + 0.2 * 100, 0)) < 1e-6);
+    CHECK(farthestCorner(far, squareAt(16 + 0.2 * 100, 0)) < 1e-8);  // rounding, as above
 }
 
 TEST_CASE("times that do not grow begin anew, and a gap forgets") {
