@@ -1,11 +1,9 @@
 #include "devices/dlpc350/messages.h"
 
-#include <cstdlib>
-#include <random>
-
 #include "devices/dlpc350/input_source.h"
 #include "devices/dlpc350/sequence.h"
 #include "devices/dlpc350/settings.h"
+#include "tests/support/fuzz.h"
 #include "tests/support/law.h"
 
 using namespace ilf;
@@ -230,19 +228,12 @@ TEST_CASE("dlpc350: no bytes make a decoder crash, hang or read past their end")
         bytes[3] = static_cast<std::uint8_t>(*rc::gen::inRange(0, 3));
         return replyStands(bytes);
     });
-    // As many as the environment asks for: ILF_FUZZ_MESSAGES=1000000000 takes an hour.
-    const char* asked = std::getenv("ILF_FUZZ_MESSAGES");
-    const long messages = asked != nullptr ? std::atol(asked) : 100'000;
-    std::mt19937 random(asked != nullptr ? std::random_device{}() : 20260101u);
-    Bytes bytes;
-    for (long i = 0; i < messages; ++i) {
-        bytes.resize(random() % 200);
-        for (std::uint8_t& b : bytes)
-            b = static_cast<std::uint8_t>(random());
-        if (bytes.size() >= 4 && i % 2 == 0) bytes[0] = 0xC0, bytes[3] = 0;
+    for (Fuzz fuzz; fuzz.goesOn();) {
+        Bytes bytes = fuzz.bytes(200);
+        if (bytes.size() >= 4 && fuzz.number() % 2 == 0) bytes[0] = 0xC0, bytes[3] = 0;
         REQUIRE(replyStands(bytes));
         REQUIRE(everyDecoderStands(bytes));
-        const auto lut = parsedLut(bytes, random() % 64);
+        const auto lut = parsedLut(bytes, fuzz.below(64));
         REQUIRE((lut || !lut.error().what.empty()));
     }
     for (std::size_t length : {1u, 4u, 8u, 16u, 28u, 60u, 61u, 72u, 124u, 125u, 384u, 512u}) {

@@ -3,11 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tests/support/fuzz.h"
 #include "tests/support/law.h"
 
 namespace ilf::devices::lens_driver {
@@ -183,17 +183,14 @@ TEST_CASE("lens driver messages: random bytes neither crash a decoder nor stop t
 }
 
 TEST_CASE("lens driver messages: a hundred thousand random messages each end in a frame, noise or a wait for more") {
-    std::minstd_rand random(1);
     std::size_t answers = 0;
-    for (int i = 0; i < 100'000; ++i) {
-        Bytes data(random() % 24);
-        for (auto& byte : data)
-            byte = static_cast<std::uint8_t>(random() >> 8);
-        const auto& expected = everyAnswer()[random() % everyAnswer().size()];
+    for (Fuzz fuzz; fuzz.goesOn();) {
+        Bytes data = fuzz.bytes(24);
+        const auto& expected = everyAnswer()[fuzz.below(everyAnswer().size())];
         // Most start as they should and end with a line, so that they get past the first look.
-        if (!data.empty() && random() % 4 != 0) data[0] = static_cast<std::uint8_t>(expected.first);
+        if (!data.empty() && fuzz.below(4) != 0) data[0] = static_cast<std::uint8_t>(expected.first);
         const auto length = static_cast<std::size_t>(expected.letters + expected.data) + 4;
-        if (data.size() >= length && random() % 2 != 0) {
+        if (data.size() >= length && fuzz.below(2) != 0) {
             const auto crc = crc16(View(data).first(length - 4));
             data[length - 4] = static_cast<std::uint8_t>(crc & 0xFF);
             data[length - 3] = static_cast<std::uint8_t>(crc >> 8);

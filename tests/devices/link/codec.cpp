@@ -2,6 +2,7 @@
 
 #include "devices/link/program_update.h"
 #include "tests/devices/programs.h"
+#include "tests/support/fuzz.h"
 #include "tests/support/law.h"
 
 namespace ilf::devices {
@@ -249,6 +250,23 @@ TEST_CASE("codec: random bytes and damaged messages never crash, and damage neve
         const auto whole = assembled(*update);
         RC_ASSERT(!whole || *whole == program);
     });
+}
+
+TEST_CASE("codec: a hundred thousand messages of noise, and damaged ones of every kind, are refused or are messages") {
+    std::vector<std::vector<std::byte>> whole;
+    law("one of each kind can be made", [&] {
+        if (whole.size() < kKinds) whole.push_back(encoded(anyMessage(whole.size())));
+    });
+    REQUIRE(whole.size() == kKinds);
+    for (Fuzz fuzz; fuzz.goesOn();) {
+        std::vector<std::byte> bytes = whole[fuzz.below(kKinds)];
+        if (fuzz.below(4) == 0)
+            bytes = fuzz.bytes<std::byte>(400);
+        else
+            fuzz.damage(bytes);
+        const auto back = decoded(bytes);
+        REQUIRE((back || back.error().what.size() > 20));
+    }
 }
 
 TEST_CASE("codec: a message for a projector that nobody builds is refused") {

@@ -10,11 +10,11 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <random>
 #include <string>
 #include <thread>
 
 #include "devices/camera/frame.h"
+#include "tests/support/fuzz.h"
 
 namespace ilf::devices {
 
@@ -150,21 +150,15 @@ TEST_CASE("addresses that are not in the table are told apart") {
 }
 
 TEST_CASE("a hundred thousand datagrams of noise and of damaged messages do no harm") {
-    std::mt19937 random(20260101);
     const auto good = bundle(kNtp, {message("/pose/1", {0.1F, 0.2F, 1.0F}), message("/pose/2", {0.3F, 0.4F})});
     int accepted = 0;
-    for (int i = 0; i < 100'000; ++i) {
-        std::vector<std::byte> bytes;
-        if (i % 2 == 0) {
-            bytes.resize(random() % 96);
-            for (auto& b : bytes)
-                b = static_cast<std::byte>(random());
-            if (!bytes.empty() && i % 4 == 0) bytes[0] = std::byte{'/'};
+    for (Fuzz fuzz; fuzz.goesOn();) {
+        std::vector<std::byte> bytes = good;
+        if (fuzz.below(2) == 0) {
+            bytes = fuzz.bytes<std::byte>(96);
+            if (!bytes.empty() && fuzz.below(2) == 0) bytes[0] = std::byte{'/'};
         } else {
-            bytes = good;
-            for (auto n = 1 + random() % 4; n > 0; --n)
-                bytes[random() % bytes.size()] = static_cast<std::byte>(random());
-            if (i % 3 == 0) bytes.resize(random() % bytes.size());
+            fuzz.damage(bytes);
         }
         const auto says = poseMessage(bytes, kNow);
         if (!says) {

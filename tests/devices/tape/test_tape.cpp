@@ -5,6 +5,7 @@
 
 #include "devices/tape/tape_player.h"
 #include "devices/tape/tape_recorder.h"
+#include "tests/support/fuzz.h"
 #include "tests/support/law.h"
 
 using namespace ilf;
@@ -59,6 +60,12 @@ TEST_CASE("tape: no text makes the reader crash, and every truncation of a tape 
         const auto tape = parsedTape("illuminatedfocus tape 1\n" + text);
         return tape || !tape.error().what.empty();
     });
+    for (Fuzz fuzz; fuzz.goesOn();) {
+        std::string text = kText;
+        fuzz.damage(text);
+        const auto tape = parsedTape(text);
+        REQUIRE((tape || !tape.error().what.empty()));
+    }
     for (std::size_t cut = 0; cut <= kText.size(); ++cut) {
         const auto tape = parsedTape(kText.substr(0, cut));
         CHECK((tape || !tape.error().what.empty()));

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 
+#include "tests/support/fuzz.h"
 #include "tests/support/law.h"
 
 namespace ilf::devices::usb1208 {
@@ -98,6 +99,13 @@ TEST_CASE("USB-1208FS-Plus messages: random bytes crash no decoder") {
         for (const auto& one : inputCalibrationsFrom(data).channels)
             RC_ASSERT(std::isfinite(one.slope + one.offset));
     });
+    for (Fuzz fuzz; fuzz.goesOn();) {
+        const Bytes data = fuzz.bytes(70);
+        statusFrom(data);
+        outputsFrom(data);
+        for (const auto& one : inputCalibrationsFrom(data).channels)
+            REQUIRE(std::isfinite(one.slope + one.offset));
+    }
 }
 
 }  // namespace ilf::devices::usb1208
