@@ -128,6 +128,8 @@ struct PlaceCross {
 struct RemovePair {
     std::size_t pair = 0;
 };
+/// Which printed markers are in the scene's picture and the live one: what FollowView::markers will say.
+struct LookForMarkers {};
 /// Answer to the recovery question at start.
 struct Recover {
     enum class Choice { recover, openSaved, skip } choice = Choice::recover;
@@ -135,7 +137,8 @@ struct Recover {
 using Request = std::variant<EditRequest, CommitGesture, CancelGesture, RunCommand, OpenFile, SaveFile, ExportView,
                              OpenCamera, SeekVideo, SelectObject, SelectFlood, GoToHistory, AcknowledgeFault,
                              LoadDepthMap, UseRig, SaveRig, Measure, StartMeasuring, StoreMeasured, Register,
-                             ChooseRegisterWay, PlaceCorner, PlaceCross, RemovePair, Recover>;
+                             ChooseRegisterWay, PlaceCorner, PlaceCross, RemovePair, Recover,
+                             LookForMarkers>;
 using Requests = std::vector<Request>;
 
 }  // namespace ilf::ui

@@ -5,6 +5,7 @@
 
 #include "core/document/plane_fit.h"
 #include "ui/canvas.h"
+#include "ui/follow_part.h"
 #include "ui/icons.h"
 #include "ui/new_region.h"
 #include "ui/prediction_card.h"
@@ -200,6 +201,7 @@ void selectedPage(Panel& p) {
         }
     }
     distanceFields(p, *region);
+    followPart(p, *region);
     if (const RegionPlan* planned = p.planOf(region->id)) {
         ImGui::Dummy({1, p.px(2)});
         predictionCard(p, *region, *planned);

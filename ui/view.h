@@ -15,6 +15,7 @@
 #include "core/perceived/view_engine.h"
 #include "core/plan/plan.h"
 #include "core/plan/report.h"
+#include "ui/follow_view.h"
 #include "ui/measure_view.h"
 #include "ui/register_view.h"
 
@@ -135,6 +136,7 @@ struct View {
     double time_s = 0.0;                        ///< monotonic
     double scale = 1.0;                         ///< content scale of the display
     std::optional<BumpView> bump{};             ///< present: say so
+    FollowView follow{};
 };
 
 }  // namespace ilf::ui

@@ -1,6 +1,7 @@
 // How the studio is started.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/lens/rig_choice.h"
@@ -14,7 +15,8 @@ struct StudioOptions {
     bool resetLayout = false;
     std::string screenshot;
     std::string view;
-    std::string frameTimes;  ///< JSON to write at the end: what each frame took
+    std::string frameTimes;      ///< JSON to write at the end: what each frame took
+    std::optional<int> oscPort;  ///< poses are heard there; absent: nowhere
     std::string coreProgram;
     RigChoice rig;  ///< instead of the document's, and what a core is started with
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -94,6 +95,10 @@ Result<std::unique_ptr<Studio>> Studio::start(const StudioOptions& options) {
     if (!window) return tl::unexpected(window.error());
     auto studio = std::unique_ptr<Studio>(new Studio(options, *arguments, *std::move(window), std::move(opened)));
     if (!trouble.empty()) studio->say(trouble, ui::Tone::error);
+    if (options.oscPort) {
+        const auto listens = studio->tracker_.listen(*options.oscPort);
+        if (!listens) studio->say(listens.error().what, ui::Tone::error);
+    }
     return studio;
 }
 
@@ -102,7 +107,8 @@ Studio::Studio(StudioOptions options, std::vector<std::string> coreArguments, st
     : options_(std::move(options)), window_(std::move(window)), editor_(opened.document), keeper_(&Window::wake),
       camera_(&Window::wake), selector_(&Window::wake), measurer_(devices::runtimeDirectory(), &Window::wake),
       registrar_(devices::runtimeDirectory(), &Window::wake), times_(!options_.frameTimes.empty()),
-      changedAt_(Clock::now()), worker_(*simulatedLens(options_.rig), &Window::wake), bumpWatch_(&Window::wake),
+      changedAt_(Clock::now()), worker_(*simulatedLens(options_.rig), &Window::wake), tracker_(&Window::wake),
+      bumpWatch_(&Window::wake),
       link_(options_.coreProgram, std::move(coreArguments), devices::runtimeDirectory(), &Window::wake) {
     if (!options_.resetLayout) ui_ = ui::withLayout(ui_, keeper_.layoutText());
     ui_.mode = startMode(options_.view);
@@ -159,7 +165,7 @@ void Studio::frame() {
     times_.lap(FrameStage::input);
 
     showTitle();
-    pictures_.show(editor_.document(), ui_.selected);
+    pictures_.show(shown(), ui_.selected);
     times_.lap(FrameStage::marks);
     const bool partly = pictures_.show(seen_, kUploadBudget);
     if (ui::wants(ui_).lights) pictures_.showLights(done_);
@@ -203,6 +209,7 @@ void Studio::collect() {
         quietFrames_ = 0;
     }
     if (camera_.collect()) takeFrame();
+    followRegions();
     for (const std::string& sentence : camera_.takeSentences())
         say(sentence, ui::Tone::warning);
     for (const auto& [sentence, well] : keeper_.takeSentences())
@@ -234,7 +241,10 @@ void Studio::takeSeen(Seen seen) {
 
 void Studio::takeNews(LinkNews news) {
     if (news.lent) measurer_.devicesAreFree(*news.lent);
-    if (news.status.swapped_ns != 0) latency_.played(news.status.revisionPlayed, news.status.swapped_ns);
+    if (news.status.swapped_ns != 0) {
+        latency_.played(news.status.revisionPlayed, news.status.swapped_ns);
+        lightLag_.played(news.status.revisionPlayed, news.status.swapped_ns);
+    }
     if (news.status.light != core_.light || news.status.faults != core_.faults ||
         news.status.connected != core_.connected || news.status.revisionPlayed != core_.revisionPlayed) {
         quietFrames_ = 0;
@@ -271,25 +281,33 @@ void Studio::takeNews(LinkNews news) {
 
 void Studio::takeFrame() {
     if (registrar_.view()) return registrar_.livePicture(camera_.frame().rgb);
-    if (camera_.live()) pictures_.showLive(camera_.frame().rgb);
+    if (camera_.live()) {
+        liveFrame_ = camera_.frame().rgb;
+        pictures_.showLive(liveFrame_);
+        tracker_.see(camera_.frame());
+    }
     lookForBump();
 }
 
 void Studio::postJob() {
     const ui::Wants wants = ui::wants(ui_);
-    if (seenSerial_ != editor_.serial()) {
+    const bool moved = postedMoves_ != tracked_.serial;
+    if (seenSerial_ != editor_.serial() || moved) {
         seenSerial_ = editor_.serial();
         changedAt_ = Clock::now();
     }
     const double restedFor = std::chrono::duration<double>(Clock::now() - changedAt_).count();
-    const bool dragging = (editor_.previewing() || wants.gesture) && restedFor < kRestAfter_s;
+    const bool dragging = (editor_.previewing() || wants.gesture || moved) && restedFor < kRestAfter_s;
     const bool sameViews = wants.perceivedLeft == posted_.perceivedLeft && wants.plain == posted_.plain &&
                            wants.perceivedRight == posted_.perceivedRight && wants.cursor == posted_.cursor &&
                            wants.seeing == posted_.seeing;
-    if (postedSerial_ == editor_.serial() && sameViews && dragging == postedDragging_) return;
+    if (postedSerial_ == editor_.serial() && sameViews && dragging == postedDragging_ && !moved) return;
     Job job;
     job.serial = postedSerial_ = editor_.serial();
     job.document = editor_.document();
+    job.moves = tracked_.moves;
+    postedMoves_ = tracked_.serial;
+    if (moved) job.seen_ns = std::llround(1e9 * tracked_.arrived.si());
     job.dragging = postedDragging_ = dragging;
     job.eyes = {wants.perceivedLeft, wants.perceivedRight};
     job.plain = wants.plain;
@@ -326,6 +344,7 @@ void Studio::forgetTake() {
     takeSerial_.reset();
     playAtStart_ = false;
     liveTake_ = false;
+    ownShow_ = false;
 }
 
 void Studio::sendIfDue() {
@@ -337,10 +356,11 @@ void Studio::sendIfDue() {
         return;
     }
     const bool taking = takeSerial_ && done_.serial >= *takeSerial_;
-    const bool live = liveTake_ && done_.compiled != sent_ && done_.hash != sentHash_;
+    const bool live = (liveTake_ || followsOnShow()) && done_.compiled != sent_ && done_.hash != sentHash_;
     if (!taking && !live) return;
     if (taking) takeSerial_.reset();
     if (live) takenRevision_ = editor_.history().revision();
+    ownShow_ = true;
     sent_ = done_.compiled;
     sentHash_ = done_.hash;
     ++revision_;
@@ -351,6 +371,7 @@ void Studio::sendIfDue() {
                       std::chrono::duration_cast<std::chrono::nanoseconds>(asked.time_since_epoch()).count());
     }
     sentSerial_ = done_.serial;
+    if (done_.seen_ns && !taking) lightLag_.sent(revision_, *done_.seen_ns);
     link_.send({sent_, revision_, taking ? devices::Why::take : devices::Why::live, takeHold_});
 }
 
@@ -401,6 +422,7 @@ ui::View Studio::view() const {
     view.busySelecting = selector_.busy();
     view.measuring = measurer_.view();
     view.registering = registrar_.view();
+    view.follow = followView();
     if (bump_) view.bump = ui::BumpView{bump_->moved_px};
     view.time_s = now_s();
     view.scale = window_->contentScale();
@@ -409,6 +431,7 @@ ui::View Studio::view() const {
 
 int Studio::editsSinceTake() const {
     const auto& history = editor_.history();
+    if (followsOnShow()) return 0;
     if (core_.light == devices::LightMode::slotted && done_.compiled && done_.serial == editor_.serial() &&
         done_.hash == core_.contentHashPlayed) {
         return 0;  // the same light, however it came about

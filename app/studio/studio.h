@@ -16,6 +16,7 @@
 #include "app/studio/options.h"
 #include "app/studio/registrar.h"
 #include "app/studio/selector.h"
+#include "app/studio/tracker.h"
 #include "app/studio/worker.h"
 #include "app/window/frame_times.h"
 #include "app/window/pictures.h"
@@ -79,6 +80,7 @@ private:
     void on(const ui::PlaceCross& request);
     void on(const ui::RemovePair& request);
     void on(const ui::Recover& request);
+    void on(const ui::LookForMarkers& request);
 
     void show(OpenedFile opened);  ///< another project altogether
     void measure();                ///< opens the page, or says why not
@@ -87,6 +89,10 @@ private:
     void registerCamera();         ///< opens the page, or says why not
     void tendRegistering();        ///< what it found, and which camera it wants
     void writeRegistration(const Registrar::ToWrite& found);
+    void followRegions();  ///< tells the tracker what there is, and takes what it found
+    ui::FollowView followView() const;
+    bool followsOnShow() const;     ///< what plays moves along with what is followed
+    const Document& shown() const;  ///< the document, with what follows where it is where the live picture is seen
     void lookForBump();
     void followBump();
     void setScene(Scene scene);
@@ -115,6 +121,14 @@ private:
     std::optional<BumpReport> bump_;  ///< the camera was moved
     Box<Registration> bumpQuiet_;     ///< the operator knows that it no longer holds
     double bumpLookedAt_s_ = 0.0;
+    TrackNews tracked_;              ///< the newest of the tracker
+    std::uint64_t trackedFor_ = 0;   ///< serial of the document that it knows
+    bool trackedLive_ = false;       ///< and whether it was promised pictures
+    std::uint64_t postedMoves_ = 0;  ///< serial of the moves that were posted
+    Latency lightLag_;               ///< from a picture's arrival to its light
+    bool lookingForMarkers_ = false;
+    Image<std::uint8_t> liveFrame_;  ///< the newest that was shown
+    std::optional<std::vector<ui::MarkerFound>> markers_;
 
     Done done_;  ///< the newest of the worker
     Seen seen_;  ///< the newest of the viewer
@@ -139,11 +153,13 @@ private:
     std::shared_ptr<const Compiled> sent_;
     std::size_t takenRevision_ = 0;  ///< History::revision at the last take
     bool liveTake_ = false;
+    bool ownShow_ = false;  ///< what plays was put on show here
     bool closing_ = false;
     std::string title_;
     int quietFrames_ = 0;  ///< frames since anything happened: then the loop may wait
 
     Worker worker_;  // threads: after all they wake
+    Tracker tracker_;
     BumpWatch bumpWatch_;
     Link link_;
 };

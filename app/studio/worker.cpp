@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/elapsed.h"
+#include "core/track/predict.h"
 
 namespace ilf::app {
 Worker::Worker(devices::SimulatedLens lens, std::function<void()> onNews)
@@ -20,6 +21,7 @@ void Worker::run(std::stop_token stop) {
         }
         done.serial = job->serial;
         done.strokeAt = job->strokeAt;
+        done.seen_ns = job->seen_ns;
         const auto compiled = done.compiled;
         done_.put(std::move(done));
         if (onNews_) onNews_();
@@ -32,8 +34,10 @@ Done Worker::program(const Job& job) {
     Done done;
     // Plan: not worked out again when nothing it depends on changed.
     auto start = Clock::now();
+    const Second light = last_ ? meanLight(last_->plan) : 0.0_s;
+    const Document document = compiler_.placed(job.document, job.moves, light);
     // Learning a wave on the lens takes longer than a frame: it waits until the hand is still.
-    const auto input = planner_.input(job.document);
+    const auto input = planner_.input(document);
     Result<Plan> planned = tl::unexpected(input ? Error{} : input.error());
     if (input) {
         const bool same = last_ && last_->plan.input == *input && (job.dragging || last_->plan.unlearnt.empty());
@@ -42,15 +46,13 @@ Done Worker::program(const Job& job) {
     }
     done.plan_ms = millisecondsSince(start);
 
-    // Compile, sharing whatever the edit cannot reach.
+    // Compile, sharing whatever the edit cannot reach: the same program, not an equal one, where only the cursor moved
+    // or a gesture ended.
     start = Clock::now();
-    if (planned && last_ && last_->plan == *planned && last_->document == job.document) {
-        done.compiled = last_;  // only the cursor moved, or a gesture ended: the same program, not an equal one
-    } else if (planned) {
-        auto compiled = compile(job.document, *planned, last_.get());
+    if (planned) {
+        auto compiled = compiler_.compiled(job.document, document, *planned, job.moves);
         if (compiled) {
-            last_ = std::make_shared<const Compiled>(*std::move(compiled));
-            done.compiled = last_;
+            done.compiled = last_ = *std::move(compiled);
         } else {
             done.refusal = compiled.error();
         }

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "app/lens/lens_planner.h"
+#include "app/studio/following_compiler.h"
 #include "app/studio/viewer.h"
 #include "core/base/latest.h"
 #include "core/compile/compile.h"
@@ -22,6 +23,8 @@ using Clock = std::chrono::steady_clock;
 struct Job {
     std::uint64_t serial = 0;  ///< Editor::serial of the document
     Document document;
+    std::vector<RegionMove> moves{};           ///< of regions that follow something: the program is of where they are
+    std::optional<std::int64_t> seen_ns{};     ///< when what made new moves was seen; see Latency
     bool dragging = false;                     ///< a gesture is going on: the view may be coarse
     std::array<bool, 2> eyes{};                ///< perceived views that are on screen, left and right
     bool plain = false;                        ///< the plain view is on screen
@@ -38,6 +41,7 @@ struct Done {
     std::shared_ptr<const Compiled> compiled;  ///< of this serial, unless refused
     std::uint64_t hash = 0;                    ///< content of its program
     double plan_ms = 0.0, compile_ms = 0.0;
+    std::optional<std::int64_t> seen_ns{};  ///< of the job
 };
 
 class Worker {
@@ -60,6 +64,7 @@ private:
 
     // Owned by the worker's thread alone.
     LensPlanner planner_;
+    FollowingCompiler compiler_;
     std::shared_ptr<const Compiled> last_;
     std::shared_ptr<const Compiled> hashed_;
     std::uint64_t hash_ = 0;  ///< of hashed_

@@ -1,0 +1,103 @@
+// The Follows row: what is clicked becomes edits, and how it stands is said in words.
+#include "ui/follow_part.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/ui/headless.h"
+
+using namespace ilf;
+using namespace ilf::ui;
+using namespace ilf::ui::test;
+using When = EditRequest::When;
+
+namespace {
+
+const SetFollow* clicked(Desk& desk, const char* what, Requests& asked) {
+    desk.state.selected = "Face";
+    desk.settle();
+    asked = desk.press(pageWindow(Page::selected), {"region", "follow", "###follows", what});
+    return lastEdit<SetFollow>(asked, When::commit);
+}
+
+Region followingFace(Desk& desk, Follow follow) {
+    Region face = *findRegion(desk.document(), "Face");
+    face.follow = std::move(follow);
+    return face;
+}
+
+FollowedNow nowOf(FollowState state) {
+    FollowedNow now;
+    now.region = "Face";
+    now.state = state;
+    now.confidence = 0.93;
+    now.to = {{{30, 40}, {30, 40}, {30, 40}, {30, 40}}};
+    return now;
+}
+
+}  // namespace
+
+TEST_CASE("follows: a marker is asked for, and the one found nearest the region in the scene's picture is taken") {
+    Desk desk(twoRegions());
+    const auto middle = middleOf(findRegion(desk.document(), "Face")->mask);
+    desk.dress = [&](View& view) {
+        view.follow.looked = true;
+        view.follow.markers = {{"6X6_250", 3, {middle.x + 50, middle.y}, true},
+                               {"APRILTAG_36h11", 7, {middle.x + 5, middle.y}, true},
+                               {"6X6_250", 9, middle, false}};
+    };
+    Requests asked;
+    const auto* set = clicked(desk, "marker", asked);
+    REQUIRE(set != nullptr);
+    REQUIRE(set->follow);
+    CHECK(std::get<MarkerTarget>(set->follow->target) == MarkerTarget{"APRILTAG_36h11", 7});
+    CHECK(std::ranges::any_of(asked, [](const Request& r) { return std::holds_alternative<LookForMarkers>(r); }));
+    CHECK(findRegion(desk.document(), "Face")->follow == set->follow);
+}
+
+TEST_CASE("follows: flat things are learnt where the region lies, poses by their number, and nothing again") {
+    Desk desk(twoRegions());
+    Requests asked;
+    const auto* flat = clicked(desk, "flat", asked);
+    REQUIRE(flat != nullptr);
+    CHECK(std::get<PlanarTarget>(flat->follow->target).patch ==
+          findRegion(desk.document(), "Face")->mask.coveredPixels());
+    const auto* pose = clicked(desk, "pose", asked);
+    REQUIRE(pose != nullptr);
+    CHECK(std::get<StreamTarget>(pose->follow->target).address == "/pose/1");
+    const auto* nothing = clicked(desk, "nothing", asked);
+    REQUIRE(nothing != nullptr);
+    CHECK_FALSE(nothing->follow);
+    CHECK(desk.history.undoLabel() == label(SetFollow{}));
+}
+
+TEST_CASE("follows: what is blurred stays blurred when lost, all else goes neutral") {
+    for (const Look look : {Look::focus, Look::blur, Look::neutral}) {
+        Document document = twoRegions();
+        document = *edited(document, SetLook{"Face", look});
+        Desk desk(document);
+        Requests asked;
+        const auto* set = clicked(desk, "pose", asked);
+        REQUIRE(set != nullptr);
+        CHECK(set->follow->whenLost == (look == Look::blur ? Follow::WhenLost::blur : Follow::WhenLost::neutral));
+    }
+}
+
+TEST_CASE("follows: its state is said in words, with what would help") {
+    Desk desk(twoRegions());
+    const Region face = followingFace(desk, {MarkerTarget{"APRILTAG_36h11", 7}, Follow::WhenLost::blur});
+    FollowView view;
+    CHECK(followWords(view, face).help.find("No live picture") != std::string::npos);
+    view.camera = true;
+    view.regions = {nowOf(FollowState::following)};
+    CHECK(followWords(view, face).words == "following, 93 % sure, 50 px away");
+    view.regions = {nowOf(FollowState::holding)};
+    CHECK(followWords(view, face).words == "not seen: stays");
+    view.regions = {nowOf(FollowState::fading)};
+    CHECK(followWords(view, face).words == "not seen: turns blurred");
+    view.regions = {nowOf(FollowState::lost)};
+    CHECK(followWords(view, face).words == "lost: blurred");
+    view.regions[0].trouble = "It is not there.";
+    CHECK(followWords(view, face).help == "It is not there.");
+    CHECK(followWords({}, followingFace(desk, {StreamTarget{}})).help.find("--osc-port") != std::string::npos);
+    CHECK(lossWords(face) == "Lost, it stays for 500 ms, then turns blurred within 500 ms.");
+}
