@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/compile/coverage.h"
+#include "core/compile/fade.h"
 #include "core/compile/parts.h"
 
 namespace ilf {
@@ -363,17 +364,6 @@ private:
     int computed_ = 0;
 };
 
-int uniformTiles(const std::vector<LightImage>& images) {
-    int count = 0;
-    for (const LightImage& image : images) {
-        for (int row = 0; row < image.rows(); ++row) {
-            for (int column = 0; column < image.columns(); ++column)
-                count += image.isUniform(column, row, image.tile(column, row)->v[0]) ? 1 : 0;
-        }
-    }
-    return count;
-}
-
 Result<void> compilable(const Document& document) {
     const Size projector = document.rig.projector;
     if (projector.width <= 0 || projector.height <= 0)
@@ -406,12 +396,20 @@ Result<void> compilable(const Document& document) {
 
 }  // namespace
 
-Result<Compiled> compile(const Document& document, const Plan& plan, const Compiled* previous) {
-    if (!document.background) return fail(Fault::notFound, "The project has no background: add one.");
-    const bool shared = previous != nullptr && previous->parts != nullptr &&
-                        sameButMasks(previous->document, previous->plan, document, plan);
-    if (const auto good = compilable(document); !good) return tl::unexpected(good.error());
+int uniformTiles(const std::vector<LightImage>& images) {
+    int count = 0;
+    for (const LightImage& image : images) {
+        for (int row = 0; row < image.rows(); ++row) {
+            for (int column = 0; column < image.columns(); ++column)
+                count += image.isUniform(column, row, image.tile(column, row)->v[0]) ? 1 : 0;
+        }
+    }
+    return count;
+}
 
+Result<Compiled> compiledOne(const Document& document, const Plan& plan, const Compiled* previous) {
+    const bool shared = previous != nullptr && previous->parts != nullptr && previous->parts->light &&
+                        sameButMasks(previous->document, previous->plan, document, plan);
     Compiled compiled;
     if (!plan.sweeps() || plan.levels.empty()) {
         // Nothing to blur: all light is one even picture, whatever was painted.
@@ -439,7 +437,17 @@ Result<Compiled> compile(const Document& document, const Plan& plan, const Compi
     compiled.program.slotRate = document.rig.slotRate;
     compiled.program.projectorDelay = document.rig.projectorDelay;
     compiled.program.projector = document.rig.projector;
-    if (const auto good = checked(compiled.program); !good) return tl::unexpected(good.error());
+    return compiled;
+}
+
+Result<Compiled> compile(const Document& document, const Plan& plan, const Compiled* previous) {
+    if (!document.background) return fail(Fault::notFound, "The project has no background: add one.");
+    if (const auto good = compilable(document); !good) return tl::unexpected(good.error());
+    const auto parts = fadeParts(document);
+    auto compiled = parts.size() > 1 ? compiledFading(document, plan, parts, previous)
+                                     : compiledOne(document, plan, likest(previous, document, plan));
+    if (!compiled) return compiled;
+    if (const auto good = checked(compiled->program); !good) return tl::unexpected(good.error());
     return compiled;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/compile/compile.h"
+#include "core/plan/fade.h"
 
 namespace ilf {
 
@@ -35,8 +36,9 @@ int baseLevel(const Plan& plan) {
 
 Sheet sheetFor(const Region& region, const Plan& plan, int base) {
     Sheet sheet{std::nullopt, region.distance, 1.0_D};
-    const RegionPlan* planned = planOf(plan, region.id);
-    if (region.look != Look::neutral) sheet.level = planned != nullptr ? planned->level.value_or(base) : base;
+    const RegionPlan* planned = planOf(plan, faded(region) ? fadedId(region.id) : region.id);
+    const Look look = faded(region) ? region.fade->look : region.look;
+    if (look != Look::neutral) sheet.level = planned != nullptr ? planned->level.value_or(base) : base;
     const bool fromMap = std::holds_alternative<FromDepthMap>(region.distance);
     if (fromMap && planned != nullptr) sheet.fallback = 0.5 * (1.0 / planned->nearest + 1.0 / planned->farthest);
     return sheet;

@@ -7,7 +7,7 @@ namespace ilf {
 namespace {
 
 bool sameSurface(const Region& a, const Region& b) {
-    return a.id == b.id && a.look == b.look && a.strength == b.strength && a.distance == b.distance;
+    return a.id == b.id && a.look == b.look && a.strength == b.strength && a.distance == b.distance && a.fade == b.fade;
 }
 
 bool sameLevels(const Plan& a, const Plan& b) {

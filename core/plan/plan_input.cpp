@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/plan/fade.h"
 #include "core/plan/plan.h"
 
 namespace ilf {
@@ -36,11 +37,16 @@ bool seen(Size size, const std::vector<const Region*>& above, const Mask* own) {
 void add(PlanInput& input, const Document& document, const Region& region) {
     const auto range = distanceRange(document, region);
     if (!range) return;
-    input.objects.push_back(
-        {region.id, region.name, region.look, region.strength, range->nearest, range->farthest, range->sigma});
+    const auto lit = [&](const RegionId& id, Look look, std::optional<Dioptre> strength) {
+        input.objects.push_back({id, region.name, look, strength, range->nearest, range->farthest, range->sigma});
+    };
+    if (!faded(region)) lit(region.id, region.look, region.strength);
+    if (faded(region) || fading(region)) lit(fadedId(region.id), region.fade->look, std::nullopt);
 }
 
 }  // namespace
+
+RegionId fadedId(const RegionId& id) { return id + "~faded"; }
 
 PlanInput planInput(const Document& document, std::shared_ptr<const LensCalibration> lens) {
     PlanInput input;

@@ -60,9 +60,12 @@ Document moved(const Document& document, std::span<const RegionMotion> motions, 
         if (!mask.empty() && !(mask == region.mask)) carry(region, motion->motion);
         region.mask = std::move(mask);
         const Look lostLook = lookOf(box->follow->whenLost);
-        if (motion->fade >= kSwitchFade && (lostLook != region.look || lostLook == Look::blur)) {
+        const bool changes = lostLook != region.look || (lostLook == Look::blur && region.strength);
+        if (changes && motion->fade >= 1.0) {
             region.look = lostLook;
             region.strength.reset();
+        } else if (changes && motion->fade > 0.0) {
+            region.fade = LookFade{lostLook, motion->fade};
         }
         result.regions.push_back(boxedAs(std::move(region), lastRegion, boxes));
     }

@@ -26,14 +26,11 @@ struct RegionMotion {
 };
 
 /// The document as it is now: masks, outlines and the anchors of planes move along; a depth map does not, as it
-/// belongs to the picture. From kSwitchFade on a
-/// region has the look of its `whenLost` (a blurred one loses its strength: the safe blur is that of the sweep's end).
-/// That is a switch, not a mixture: the planner gives each pixel to the one region that covers half of it, so of two
-/// regions that share a pixel one would have no level and its light would fall to the base level. Regions that follow
-/// nothing, and motions of regions that are not there, are left alone. `before`: the last answer, whose tiles are
-/// shared.
+/// belongs to the picture. A region that fades is on its way (LookFade) to the look of its `whenLost` and has it at
+/// last (a blurred one loses its strength: the safe blur is that of the sweep's end). Light goes over evenly; the plan
+/// has both looks meanwhile, so the sweep may change as the fade begins and as it ends. Regions that follow nothing,
+/// and motions of regions that are not there, are left alone. `before`: the last answer, whose tiles are shared.
 Document moved(const Document& document, std::span<const RegionMotion> motions, const Document* before = nullptr);
-inline constexpr double kSwitchFade = 0.5;
 
 /// Where a mask's middle is, by coverage; the picture's middle for a blank one.
 Point<CameraFrame> middleOf(const Mask& mask);

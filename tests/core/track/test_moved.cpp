@@ -154,20 +154,23 @@ TEST_CASE("only regions that follow are moved, with outline and plane") {
     CHECK(at.regions[0]->look == Look::focus);
 }
 
-TEST_CASE("in the middle of the fade the look becomes the safe one, and nothing else changes") {
+TEST_CASE("while it fades a region is on its way to the safe look, and has it at last") {
     Document document = following(Look::focus, Follow::WhenLost::blur);
     Document safe = document;
     Region lost = *document.regions[0];
     lost.look = Look::blur;
     safe.regions[0] = Box(lost);
-    for (const double fade : {0.0, 0.25, 0.499})
-        CHECK(moved(document, std::vector<RegionMotion>{{"a", {}, fade}}) == document);
-    for (const double fade : {0.5, 0.75, 1.0})
-        CHECK(moved(document, std::vector<RegionMotion>{{"a", {}, fade}}) == safe);
+    CHECK(moved(document, std::vector<RegionMotion>{{"a", {}, 0.0}}) == document);
+    for (const double fade : {0.01, 0.5, 0.99}) {
+        const Document at = moved(document, std::vector<RegionMotion>{{"a", {}, fade}});
+        CHECK(at.regions[0]->look == Look::focus);
+        CHECK(at.regions[0]->fade == LookFade{Look::blur, fade});
+    }
+    CHECK(moved(document, std::vector<RegionMotion>{{"a", {}, 1.0}}) == safe);
     lost.strength = 0.7_D;  // its own blur gives way to the safe one
     document.regions[0] = Box(lost);
-    CHECK(moved(document, std::vector<RegionMotion>{{"a", {}, 0.499}}) == document);
-    CHECK(moved(document, std::vector<RegionMotion>{{"a", {}, 0.5}}) == safe);
+    CHECK(moved(document, std::vector<RegionMotion>{{"a", {}, 0.5}}).regions[0]->fade == LookFade{Look::blur, 0.5});
+    CHECK(moved(document, std::vector<RegionMotion>{{"a", {}, 1.0}}) == safe);
 }
 
 TEST_CASE("a private region that is blurred as it is stays so throughout") {
@@ -176,9 +179,9 @@ TEST_CASE("a private region that is blurred as it is stays so throughout") {
         CHECK(moved(document, std::vector<RegionMotion>{{"a", {}, fade}}) == document);
 }
 
-TEST_CASE("the light leaves the focus level at once, in the middle of the fade") {
+TEST_CASE("the light leaves the focus level evenly") {
     const Document document = following(Look::focus, Follow::WhenLost::blur);
-    for (const double fade : {0.0, 0.25, 0.499, 0.5, 0.75, 1.0}) {
+    for (const double fade : {0.0, 0.25, 0.5, 0.75, 1.0}) {
         const Document at = moved(document, std::vector<RegionMotion>{{"a", {}, fade}});
         const auto planned = plan(planInput(at));
         REQUIRE(planned);
@@ -194,7 +197,7 @@ TEST_CASE("the light leaves the focus level at once, in the middle of the fade")
                                        : compiled->program.images[static_cast<std::size_t>(focus)].at(
                                              static_cast<int>(on.x), static_cast<int>(on.y)) /
                                              255.0;
-        CHECK(light == (fade < 0.5 ? 1.0 : 0.0));
+        CHECK(std::abs(light - (1.0 - fade)) < 1.0 / 255.0);
     }
 }
 
