@@ -1,11 +1,7 @@
 // The whole core over an emulated rig: real USB drivers, a real window, and light as the emulated projector had it.
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <optional>
-#include <vector>
 
-#include "tests/process/output_core.h"
+#include "tests/process/emulated_rig.h"
 
 using namespace ilf;
 using namespace ilf::test;
@@ -13,92 +9,6 @@ using devices::LightMode;
 using devices::Status;
 
 namespace {
-
-/// Of a wearer whose lenses rest elsewhere than at 0 D.
-constexpr Dioptre kRest = 1.0_D;
-
-/// Six slots of four bits, seen through a lens that swings by 3 D.
-Program shown(std::uint32_t seed) {
-    Program p = program(seed, 2.0_D, {912, 1140});
-    p.waveform.rest = kRest;
-    p.waveform.unit = DriveUnit::ampere;
-    p.waveform.drive.c = {0.005, 0.012};
-    p.slotRate = 360.0_Hz;
-    p.projectorDelay = 0.0_ms;
-    p.imageOfSlot = {0, 0, Program::kDark, 1, 1, Program::kDark};
-    return p;
-}
-
-/// What the rig received last, and the darkest and brightest pixel of all its exposures.
-struct Seen {
-    devices::Received received;
-    int darkest = 255, brightest = 0;
-    bool white() const { return !received.exposures.empty() && darkest == 255; }
-    bool atRest(Dioptre rest) const {
-        const auto near = [&](Dioptre power) { return abs(power - rest) < 0.25_D; };
-        return std::all_of(received.left.begin(), received.left.end(), near) &&
-               std::all_of(received.right.begin(), received.right.end(), near);
-    }
-};
-
-std::optional<Seen> seen(devices::DeviceClient& client) {
-    auto received = devices::ask<devices::Received>(client, devices::ReadReceived{});
-    if (!received) return std::nullopt;
-    Seen now{*std::move(received), 255, 0};
-    for (std::size_t i = 0; i < now.received.exposures.size(); ++i) {
-        const auto light = devices::ask<devices::ExposedLight>(client, devices::ReadExposure{static_cast<int>(i)});
-        if (!light || light->light.empty()) return std::nullopt;
-        const auto [low, high] = std::minmax_element(light->light.begin(), light->light.end());
-        now.darkest = std::min<int>(now.darkest, *low);
-        now.brightest = std::max<int>(now.brightest, *high);
-    }
-    return now;
-}
-
-/// Within `time` the light is white and the lens at `rest`. Counts sweeps that were all black on the way.
-bool becomesSafe(const OutputCore& core, milliseconds time, Dioptre rest, int& black) {
-    auto client = core.devicesClient();
-    const auto deadline = Clock::now() + time;
-    while (Clock::now() < deadline) {
-        const auto now = seen(client);
-        if (now && !now->received.exposures.empty() && now->brightest == 0) ++black;
-        if (now && now->white() && now->atRest(rest)) return true;
-        std::this_thread::sleep_for(milliseconds(20));
-    }
-    return false;
-}
-
-/// None where an emulated rig cannot run.
-bool ready(devices::CoreLink& link) {
-    const auto allWell = [](const Status& s) {
-        return s.devices.size() == 3 && std::all_of(s.devices.begin(), s.devices.end(), [](const auto& one) {
-                   return one.health == devices::DeviceHealth::well;
-               });
-    };
-    const auto lacking = [](const Status& s) {
-        return s.devices.size() == 1 && s.devices[0].line.find("Xvfb") != std::string::npos;
-    };
-    REQUIRE(OutputCore::until(link, seconds(20), [&](const Status& s) { return allWell(s) || lacking(s); }));
-    if (allWell(link.status())) return true;
-    MESSAGE("SKIPPED: ", link.status().devices[0].line);
-    return false;
-}
-
-/// TAKE. On a machine that is busy with other things a rig in real time may miss its time, which is a fault and safe
-/// light; then again.
-void taken(devices::CoreLink& link, const Program& program, std::uint64_t& revision) {
-    for (int tries = 0; tries < 5; ++tries) {
-        const auto faults = link.status().faults;
-        const auto sent = link.send(program, ++revision, devices::Why::take);
-        REQUIRE_MESSAGE(sent.has_value(), (sent ? "" : sent.error().what));
-        REQUIRE(OutputCore::until(link, seconds(20),
-                                  [&](const Status& s) { return s.revisionPlayed == revision || s.faults != faults; }));
-        if (link.status().revisionPlayed == revision) return;
-        MESSAGE("taken again: ", link.status().fault);
-        REQUIRE(ready(link));
-    }
-    FAIL("no take was played");
-}
 
 bool ended(const OutputCore& core) {
     const auto deadline = Clock::now() + seconds(10);
@@ -168,6 +78,23 @@ TEST_CASE(
         auto next = core.connected();
         CHECK(next.status().hold != 0);
         CHECK(next.status().light == LightMode::steady);
+    }
+    SUBCASE("the display lost, then player and supervisor killed: the board's own white stays, until there is video") {
+        REQUIRE(core.devicesClient().mishap({"display", "unplug", 0, 0, 0.0}));
+        CHECK(becomesSafe(core, seconds(8), kRest, black));
+        kill(core.supervisor(), SIGKILL);
+        kill(link.status().pid, SIGKILL);
+        // What the guard starts finds no display, and leaves the board as it is.
+        CHECK(leavesSafe(core, seconds(6), kRest) == "");
+        CHECK(app::stageIsMarked(core.directory()));
+        REQUIRE(core.devicesClient().mishap({"display", "plug", 0, 0, 0.0}));
+        CHECK(unmarked(core, seconds(25)));
+        CHECK(becomesSafe(core, seconds(5), kRest, black));
+        core.start();
+        auto next = core.connected();
+        CHECK(next.status().light == LightMode::steady);
+        REQUIRE(ready(next));
+        taken(next, shown(2), ++revision);
     }
     SUBCASE("the guard killed: another one, and the show goes on") {
         const int killed = core.guard(), player = link.status().pid;

@@ -12,6 +12,7 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/output_core/stage_mark.h"
 #include "devices/link/core_link.h"
@@ -34,8 +35,9 @@ inline int kills() {
 /// On the ideal lens, which plays the powers of programs made by hand, unless told another.
 class OutputCore {
 public:
-    explicit OutputCore(std::string lens = "ideal", std::string rig = "simulated")
-        : directory_(temporary()), lens_(std::move(lens)), rig_(std::move(rig)) {
+    explicit OutputCore(std::string lens = "ideal", std::string rig = "simulated", bool leavesDevices = false)
+        : directory_(temporary()), arguments_{"--simulated-lens", std::move(lens), "--rig", std::move(rig)} {
+        if (leavesDevices) arguments_.emplace_back("--leave-devices");
         setenv("XDG_STATE_HOME", (directory_ / "state").c_str(), 1);
         start();
     }
@@ -50,8 +52,7 @@ public:
     OutputCore& operator=(const OutputCore&) = delete;
 
     void start() {
-        const auto running =
-            devices::ensureCoreRunning(ILF_CORE_PATH, directory_, {"--simulated-lens", lens_, "--rig", rig_});
+        const auto running = devices::ensureCoreRunning(ILF_CORE_PATH, directory_, arguments_);
         REQUIRE_MESSAGE(running.has_value(), (running ? "" : running.error().what));
     }
     const std::filesystem::path& directory() const { return directory_; }
@@ -107,7 +108,7 @@ private:
         return name;
     }
     std::filesystem::path directory_;
-    std::string lens_, rig_;
+    std::vector<std::string> arguments_;
 };
 
 inline bool safe(const devices::DeviceState& s) {
