@@ -1,19 +1,26 @@
 #!/usr/bin/env bash
-# Runs every benchmark, writes results.csv and results.png, perceived.csv and perceived.png here, and puts their tables into
-# README.md.
-# Usage: tests/bench/run.sh [BUILD_DIRECTORY] [perceived]   (default: build/release, all of them; `perceived`: that one)
+# Runs every benchmark, writes results.csv and results.png, perceived.csv and perceived.png, scene.csv and scene.png here,
+# and puts their tables into README.md.
+# Usage: tests/bench/run.sh [BUILD_DIRECTORY] [perceived|scene]   (default: build/release, all of them; else that one)
 # ILF_BENCH_ARGS are passed to every benchmark but the perceived view's, ILF_PERCEIVED_ARGS to that one.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=${1:-build/release}
 only=${2:-}
 out=tests/bench
-case "$only" in "" | perceived) ;; *) sed -n '2,6p' "$0"; exit 2 ;; esac
+scene="scan warp triangulate solid track scene"
+case "$only" in
+    "") targets=benches ;;
+    perceived) targets=bench_perceived ;;
+    scene) targets=$(printf 'bench_%s ' $scene) ;;
+    *) sed -n '2,6p' "$0"; exit 2 ;;
+esac
 
 for tool in jq gnuplot; do
     command -v "$tool" >/dev/null || { echo "$tool is missing: ./test.sh --full installs it (section [bench])."; exit 1; }
 done
-cmake --build "$build" --target "bench${only:+_}${only:-es}"
+# shellcheck disable=SC2086
+cmake --build "$build" --target $targets
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -30,6 +37,14 @@ measured_on() {
     echo "Measured $(date -u +%F) on $(nproc) cores, $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1)."
 }
 
+if [ "$only" != perceived ]; then
+    "$out/scene.sh" "$build/bin" "$work/scene.md"
+    { cat "$work/scene.md"; echo; measured_on; } > "$work/scene_table.md"
+    into_readme scene "$work/scene_table.md"
+    echo "wrote $out/scene.csv, $out/scene.png and the table in README.md"
+    [ -z "$only" ] || exit 0
+fi
+
 echo "== bench_perceived"
 # shellcheck disable=SC2086
 "$build/bin/bench_perceived" --csv "$out/perceived.csv" --markdown "$work/perceived.md" ${ILF_PERCEIVED_ARGS:-}
@@ -40,7 +55,7 @@ echo "wrote $out/perceived.csv, $out/perceived.png and the table in README.md"
 [ -z "$only" ] || exit 0
 
 for bench in "$build"/bin/bench_*; do
-    [ "$(basename "$bench")" != bench_perceived ] || continue
+    case " perceived $scene " in *" $(basename "$bench" | cut -d_ -f2-) "*) continue ;; esac # they have tables of their own
     echo "== $(basename "$bench")"
     # shellcheck disable=SC2086
     "$bench" ${ILF_BENCH_ARGS:-} --benchmark_out="$work/$(basename "$bench").json" --benchmark_out_format=json >/dev/null

@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "core/base/parallel.h"
 #include "core/compile/coverage.h"
@@ -35,7 +36,9 @@ TileGrid onRaster(const Mask& mask) {
 }
 
 /// Root of the mean squared difference from an ellipse's true coverage, over the pixels at its border; 0..1.
-double coverageError(const TileGrid& grid) {
+/// `covered`: 0..255 of a pixel of the raster.
+template <class Covered>
+double coverageError(const Covered& covered) {
     const auto back = kPlane.inverted();
     const double cx = 0.5 * (kFrom.x + kTo.x), cy = 0.5 * (kFrom.y + kTo.y);
     const double rx = 0.5 * (kTo.x - kFrom.x), ry = 0.5 * (kTo.y - kFrom.y);
@@ -50,7 +53,7 @@ double coverageError(const TileGrid& grid) {
                 inside += std::hypot((c.x - cx) / rx, (c.y - cy) / ry) <= 1.0 ? 1 : 0;
             }
             if (inside == 0 || inside == kPoints * kPoints) continue;
-            const double difference = grid.at(x, y) / 255.0 - inside / static_cast<double>(kPoints * kPoints);
+            const double difference = covered(x, y) / 255.0 - inside / static_cast<double>(kPoints * kPoints);
             sum += difference * difference;
             pixels += 1.0;
         }
@@ -63,10 +66,30 @@ void warpSlot(benchmark::State& state) {
     TileGrid grid = onRaster(mask);
     for (auto _ : state)
         benchmark::DoNotOptimize(grid = onRaster(mask));
-    state.counters["error"] = coverageError(grid);
+    state.counters["error"] = coverageError([&](int x, int y) { return grid.at(x, y); });
     state.SetLabel("of coverage at the border, rms");
 }
 BENCHMARK(warpSlot)->Unit(benchmark::kMicrosecond)->MeasureProcessCPUTime()->UseRealTime();
+
+/// OpenCV's remap of the whole mask, bilinear, through the same places: no area is averaged.
+void warpRemap(benchmark::State& state) {
+    cv::setNumThreads(2);
+    const Image<std::uint8_t> mask = toImage(rasterised(Ellipse{kFrom, kTo}, kCamera));
+    const cv::Mat from(kCamera.height, kCamera.width, CV_8U, const_cast<std::uint8_t*>(mask.pixels().data()));
+    const auto back = kPlane.inverted();
+    cv::Mat places(kRaster.height, kRaster.width, CV_32FC2), to;
+    for (int y = 0; y < places.rows; ++y) {
+        for (int x = 0; x < places.cols; ++x) {
+            const auto c = back(Point<ProjectorFrame>{x + 0.5, y + 0.5});
+            places.at<cv::Vec2f>(y, x) = {static_cast<float>(c.x - 0.5), static_cast<float>(c.y - 0.5)};
+        }
+    }
+    for (auto _ : state)
+        cv::remap(from, to, places, cv::noArray(), cv::INTER_LINEAR);
+    state.counters["error"] = coverageError([&](int x, int y) { return to.at<std::uint8_t>(y, x); });
+    state.SetLabel("of coverage at the border, rms");
+}
+BENCHMARK(warpRemap)->Unit(benchmark::kMicrosecond)->UseRealTime();
 
 /// No square of it is even: what a slot can cost at most.
 void warpNoise(benchmark::State& state) {

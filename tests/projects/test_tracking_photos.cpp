@@ -217,6 +217,10 @@ TEST_CASE("ArUco markers in photographs: corners about the whole pixels of OpenC
     }
     MESSAGE(errors.all.size(), " corners: rms ", errors.rms(), " px, worst ", errors.quantile(1.0), ", within 0.5 px ",
             100 * errors.within(0.5), " %; middles: rms ", middles.rms(), " px, worst ", middles.quantile(1.0));
+    // No half pixel is lost. Such corners of drawn markers are within half a pixel of the truth in two of three cases
+    // (tests/core/track/test_marker_reference.cpp), so a perfect finder could not be nearer to these either.
+    CHECK(std::abs(shift / static_cast<double>(middles.all.size())) < 0.15);
+    CHECK(errors.within(0.5) >= 0.5);
     // Besides the rounding a contour's corner lies anywhere on the last pixel of a side (0.29 rms): 0.50 together. At
     // most the rounding and 0.15 of ours. Four together have half of that, and the worst of 23 is within twice it.
     CHECK(errors.rms() < 0.52);
