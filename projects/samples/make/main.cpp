@@ -6,6 +6,7 @@
 
 #include "project.h"
 #include "projects/project_file.h"
+#include "scanned.h"
 #include "scenes.h"
 
 namespace {
@@ -18,7 +19,7 @@ constexpr int kSamplesAcross = 3;
 int usage() {
     std::cerr << "usage: make-samples FOLDER [NAME...]\n"
                  "Draws the sample projects (all, or the named ones) and saves them in FOLDER.\n"
-                 "Names: museum-guide, study-desk, tutorial-recording, four-objects\n";
+                 "Names: museum-guide, study-desk, tutorial-recording, four-objects, scanned-desk\n";
     return 2;
 }
 
@@ -28,15 +29,21 @@ int main(int count, char** words) {
     if (count < 2 || std::string_view(words[1]).starts_with("-")) return usage();
     const std::filesystem::path folder = words[1];
     bool drewAny = false;
-    for (const auto make :
-         {samples::museumGuide, samples::studyDesk, samples::tutorialRecording, samples::fourObjects}) {
+    for (const auto make : {samples::museumGuide, samples::studyDesk, samples::tutorialRecording, samples::fourObjects,
+                            samples::scannedDesk}) {
         const samples::Scene scene = make();
         if (count > 2 && std::find(words + 2, words + count, scene.name) == words + count) continue;
         drewAny = true;
         const auto began = std::chrono::steady_clock::now();
-        const Document document = samples::project(scene, samples::rendered(scene, kSamplesAcross));
+        const samples::Rendering rendering = samples::rendered(scene, kSamplesAcross);
+        Result<Document> document = samples::project(scene, rendering);
+        if (make == samples::scannedDesk) document = samples::scanned(*std::move(document), scene, rendering);
+        if (!document) {
+            std::cerr << document.error().what << '\n';
+            return 1;
+        }
         const auto place = folder / (scene.name + ".ilfd");
-        if (const auto saved = projects::saveProject(place, document, {}, projects::Backups::none); !saved) {
+        if (const auto saved = projects::saveProject(place, *document, {}, projects::Backups::none); !saved) {
             std::cerr << saved.error().what << '\n';
             return 1;
         }

@@ -6,7 +6,7 @@
 
 namespace ilf::samples {
 
-/// `scene` must be one of the four of scenes.h and `rendering` its rendering. Distances are those of the rendering;
+/// `scene` must be one of those of scenes.h and `rendering` its rendering. Distances are those of the rendering;
 /// those of the paper's four objects are the paper's.
 Document project(const Scene& scene, const Rendering& rendering);
 

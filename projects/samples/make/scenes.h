@@ -9,5 +9,7 @@ Scene museumGuide();
 Scene studyDesk();
 Scene tutorialRecording();
 Scene fourObjects();
+/// The study desk in a smaller picture, for a camera that scans it.
+Scene scannedDesk();
 
 }  // namespace ilf::samples

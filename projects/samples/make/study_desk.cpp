@@ -305,4 +305,12 @@ Scene studyDesk() {
     return scene;
 }
 
+Scene scannedDesk() {
+    Scene scene = studyDesk();
+    scene.name = "scanned-desk";
+    scene.camera.width = 640;
+    scene.camera.height = 400;
+    return scene;
+}
+
 }  // namespace ilf::samples
