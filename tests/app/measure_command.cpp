@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/lens/shaped_wave.h"
 #include "projects/wave_database.h"
 #include "projects/wearer_rig.h"
 #include "tests/support/run_program.h"
@@ -15,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-Ran measure(const std::string& arguments) { return runProgram(ILF_STUDIO_PATH, "measure " + arguments + " 2>&1"); }
+Ran measure(const std::string& arguments) { return readAsCalled(ILF_STUDIO_PATH, "measure " + arguments); }
 
 }  // namespace
 
@@ -70,6 +71,35 @@ TEST_CASE("measure rig: an emulated one ends in waves and a rig that plans; file
     CHECK(again.code == 1);
     CHECK(again.out.find("--replace") != std::string::npos);
     CHECK(std::filesystem::file_size(lens) == before);
+}
+
+TEST_CASE("measure rig: a shaped wave is learnt on the lens as it was measured, and chosen from its file") {
+    const TemporaryDirectory folder;
+    const std::string lens = folder / "lens.ilflens";
+    const Ran ran = measure("rig --yes --no-projector --waves 9 --shape 1.5,0 -o " + lens);
+    REQUIRE_MESSAGE(ran.code == 0, ran.out);
+    CHECK(ran.out.find("Learnt: a wave that holds 2 levels") != std::string::npos);
+    const auto waves = projects::openWaves(lens);
+    REQUIRE_MESSAGE(waves, waves.error().what);
+    REQUIRE(waves->shaped.size() == 1);
+    const ShapedWave& wave = waves->shaped[0];
+    CHECK(wave.provenance == Provenance::simulated);
+    CHECK(wave.unit == DriveUnit::ampere);
+    CHECK(wave.rate == 60.0_Hz);
+    REQUIRE(wave.holds.size() == 2);
+    CHECK(wave.holds[0].power_D + wave.holds[1].power_D == doctest::Approx(1.5));
+    // What is stored was recorded, not designed, and held within what the bench's photodiode can tell.
+    CHECK(wave.largestError_D < 0.05);  // 0.015 on this bench
+    CHECK(largestErrorIn(wave.holds, wave.power) == doctest::Approx(wave.largestError_D).epsilon(0.01));
+    CHECK(wave.errors_D.front() >= wave.largestError_D);
+    const Ran chosen = runProgram(ILF_STUDIO_PATH, "lens choose " + lens + " --low 0 --high 1.5 --mode shaped --json");
+    REQUIRE_MESSAGE(chosen.code == 0, chosen.out);
+    CHECK(json::parse(chosen.out)["wave"]["id"] == wave.id);
+    // Levels that its current limit keeps out of reach are refused, and nothing is written.
+    const std::string far = folder / "far.ilflens";
+    const Ran beyond = measure("rig --yes --no-projector --waves 9 --shape -40,40 -o " + far);
+    CHECK(beyond.code != 0);
+    CHECK_FALSE(std::filesystem::exists(far));
 }
 
 TEST_CASE("measure rig: what is missing is said before anything moves, and nothing is written") {
