@@ -1,4 +1,6 @@
 // `scan --rig emulated`: in real time, so it runs with nothing beside it.
+#include <doctest/doctest.h>
+
 #include "tests/app/emulated/rig_there.h"
 #include "tests/app/emulated/scanned.h"
 

@@ -1,34 +1,14 @@
 // `scan` by the program, and what its map and report must say.
 #pragma once
 
-#include <doctest/doctest.h>
-
-#include <nlohmann/json.hpp>
-
-#include "projects/map_file.h"
 #include "tests/support/run_program.h"
 
 namespace ilf {
 
 /// The map goes to map.yml.gz of the folder.
-inline Ran scanned(const TemporaryDirectory& folder, const std::string& options) {
-    return runProgram(ILF_STUDIO_PATH, "scan -o " + (folder / "map.yml.gz") + " " + options,
-                      "XDG_STATE_HOME=" + folder.path());
-}
+Ran scanned(const TemporaryDirectory& folder, const std::string& options);
 
-inline void checkMap(const TemporaryDirectory& folder, const Ran& ran) {
-    REQUIRE_MESSAGE(ran.code == 0, ran.out);
-    const nlohmann::json report = nlohmann::json::parse(ran.out);
-    CHECK(report["provenance"] == "emulated");
-    CHECK(report["against_truth"]["rms_px"] <= 0.2);
-    CHECK(report["against_truth"]["beyond_2px_share"] < 0.01);
-    CHECK(report["decoded_share_of_lit"] > 0.9);
-    CHECK(report["check"]["columns"]["rms_px"] <= 0.5);
-    CHECK(report["check"]["rows"]["rms_px"] <= 0.5);
-    const auto map = projects::readMap(folder / "map.yml.gz");
-    REQUIRE_MESSAGE(map, map.error().what);
-    CHECK(map->facts.at("provenance") == "emulated");
-    CHECK(map->map.camera() == Size{640, 512});
-}
+/// Of a run with --json and binning=2.
+void checkMap(const TemporaryDirectory& folder, const Ran& ran);
 
 }  // namespace ilf
