@@ -104,10 +104,12 @@ void drawSelected(const Marks& m) {
             const ImVec2 a = m.at(plane->anchors[i].at), b = m.at(plane->anchors[(i + 1) % plane->anchors.size()].at);
             m.draw.AddLine(a, b, rgb(0x58C48A, 120), m.px(1));
         }
-        for (const DistanceAnchor& anchor : plane->anchors) {
+        for (std::size_t i = 0; i < plane->anchors.size(); ++i) {
+            const DistanceAnchor& anchor = plane->anchors[i];
             m.handle(anchor.at, colour::good);
             const ImVec2 c = m.at(anchor.at);
-            m.label({c.x, c.y - m.px(20)}, formatted(anchor.distance), colour::good, false);
+            m.label({c.x, c.y - m.px(20)}, std::to_string(i + 1) + ":  " + formatted(anchor.distance), colour::good,
+                    false);
         }
     }
     if (!region->outline || (state.tool != Tool::move && state.tool != Tool::polygon)) return;

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <string>
 
-#include "core/base/as_text.h"
 #include "ui/new_region.h"
+#include "ui/register_parts.h"
 #include "ui/widgets.h"
 
 namespace ilf::ui {
@@ -15,22 +15,6 @@ namespace {
 
 using Step = Register::Step;
 using Phase = RegisterView::State;
-
-/// Beside the button before it, or below where there is no room.
-bool button(Panel& p, const char* words, const char* help, bool enabled = true) {
-    const float width = std::max(p.px(80), ImGui::CalcTextSize(words, nullptr, true).x + p.px(24));
-    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
-    ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::Button(words, {width, p.px(34)});
-    ImGui::EndDisabled();
-    tooltip(help);
-    ImGui::SameLine();
-    return pressed;
-}
-
-void ask(Panel& p, Step step) { p.requests.push_back(Register{step, p.state.registering}); }
-
-std::string px(double value) { return asText("%.2f px", value); }
 
 /// Which camera, and what the emulated scene shall be.
 void cameraRow(Panel& p, const RegisterView& r) {
@@ -88,7 +72,9 @@ void findings(const RegisterView& r) {
 
 /// Colours of the quality map, each with its words: nobody has to tell them apart by hue alone.
 void legend(Panel& p, const RegisterView& r) {
-    if (!r.quality) return;
+    if (r.shows == RegisterPicture::depth)
+        wrapped("Violet is far, yellow near; grey has no depth.", colour::dim, Font::small);
+    if (r.shows != RegisterPicture::quality) return;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     for (const QualityColour& entry : r.legend) {
         const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -112,15 +98,15 @@ void found(Panel& p, const RegisterView& r) {
         wrapped("Four corners always fit: look whether the frame lies on what the projector shows.", colour::dim,
                 Font::small);
     else
-        text("Residual " + px(f.rms_px) + " rms, " + px(f.worst_px) +
-             (f.way == RegisterWay::scan ? " along the worse axis" : " the worst"));
+        text("Residual " + px(f.rms_px) + " rms, " + px(f.worst_px) + " the worst");
     text(std::to_string(f.points) + (f.way == RegisterWay::scan ? " pixels" : " points") + ", " + f.provenance,
          colour::dim, Font::small);
     if (!f.note.empty()) wrapped(f.note, colour::warn);
     ImGui::Checkbox("Its picture becomes the scene###registerAsScene", &p.state.registering.asScene);
     tooltip(
         "The camera's picture under steady white light. Regions stay; where its size is another they are resampled.");
-    if (button(p, "Accept###registerAccept", "The registration goes into the rig; undo brings back what was."))
+    if (f.way == RegisterWay::scan) depthFoundPart(p, r);
+    if (registerButton(p, "Accept###registerAccept", "The registration goes into the rig; undo brings back what was."))
         ask(p, Step::accept);
     ImGui::NewLine();
 }
@@ -135,30 +121,37 @@ void working(Panel& p, const RegisterView& r) {
     ImGui::ProgressBar(static_cast<float>(r.done) / static_cast<float>(std::max(1, r.all)),
                        {ImGui::GetContentRegionAvail().x, p.px(8)}, "");
     ImGui::PopStyleColor();
-    if (!stopping && button(p, "Cancel###registerCancel", "Steady white light at once; nothing is kept."))
+    if (!stopping && registerButton(p, "Cancel###registerCancel", "Steady white light at once; nothing is kept."))
         ask(p, Step::cancel);
     ImGui::NewLine();
 }
 
-void scanPart(Panel& p, const RegisterView& r) {
+void scanPart(Panel& p) {
     wrapped("Stripes are shown in every slot, the lens rests; some seconds. Keep camera, projector and things still.",
             colour::dim);
     ImGui::Checkbox("Also where the room's light says no###registerAnyway", &p.state.registering.anyway);
-    if (button(p, "Scan###registerScan",
-               "Exposure, room light, a marker, all stripes, and a check on stripes shown anew."))
+    if (registerButton(p, "Scan###registerScan",
+                       "Exposure, room light, a marker, all stripes, and a check on stripes shown anew."))
         ask(p, Step::scan);
-    if (button(p, "Check the light###registerLight",
-               "White, black and a marker: is the room dark enough, and does the camera see this projector?"))
+    if (registerButton(p, "Check the light###registerLight",
+                       "White, black and a marker: is the room dark enough, and does the camera see this projector?"))
         ask(p, Step::light);
-    if (r.hasQuality && button(p, r.quality ? "Live picture###registerQuality" : "Quality map###registerQuality",
-                               "What was decoded where, and why not."))
-        ask(p, Step::picture);
     ImGui::NewLine();
 }
 
+/// Which picture of the camera's is shown, once there are others than the live one.
+void pictures(Panel& p, const RegisterView& r) {
+    if (!r.hasQuality) return;
+    const float width = ImGui::GetContentRegionAvail().x;
+    const int now = static_cast<int>(r.shows);
+    const auto which = r.hasDepth ? choice("###registerShows", {"Live", "Quality", "Depth"}, now, width)
+                                  : choice("###registerShows", {"Live", "Quality"}, now, width);
+    if (which) p.requests.push_back(ShowRegisterPicture{static_cast<RegisterPicture>(*which)});
+}
+
 void marksButton(Panel& p, const RegisterView& r, const char* show) {
-    if (button(p, r.showsMarks ? "Hide###registerMarks" : show,
-               r.showsMarks ? "Steady white light." : "On the projector; what plays stops."))
+    if (registerButton(p, r.showsMarks ? "Hide###registerMarks" : show,
+                       r.showsMarks ? "Steady white light." : "On the projector; what plays stops."))
         ask(p, Step::marks);
 }
 
@@ -176,7 +169,7 @@ void pairsPart(Panel& p, const RegisterView& r) {
             r.showsMarks ? colour::focus : colour::dim);
     marksButton(p, r, "Show a cross###registerMarks");
     if (r.showsMarks && r.targetsLeft &&
-        button(p, "Another place###registerAnother", "The camera does not see this one."))
+        registerButton(p, "Another place###registerAnother", "The camera does not see this one."))
         ask(p, Step::another);
     ImGui::NewLine();
     for (std::size_t i = 0; i < r.pairs.size(); ++i) {
@@ -200,15 +193,26 @@ void pairsPart(Panel& p, const RegisterView& r) {
 void boardPart(Panel& p) {
     wrapped("The projector shows a chessboard and its inverse; the camera finds its corners. For flat scenes.",
             colour::dim);
-    if (button(p, "Find the board###registerBoard", "A few seconds.")) ask(p, Step::board);
+    if (registerButton(p, "Find the board###registerBoard", "A few seconds.")) ask(p, Step::board);
     ImGui::NewLine();
 }
 
 void ways(Panel& p, const RegisterView& r) {
     const float width = ImGui::GetContentRegionAvail().x;
-    if (const auto way = choice("###registerWay", {"Scan", "Four corners", "Point pairs", "Chessboard"},
+    if (const auto way = choice("###registerWay", {"Scan", "Corners", "Pairs", "Board", "Calibrate"},
                                 static_cast<int>(r.way), width))
         p.requests.push_back(ChooseRegisterWay{static_cast<RegisterWay>(*way)});
+}
+
+void acceptedPart(Panel& p, const RegisterView& r) {
+    if (r.way != RegisterWay::calibration) {
+        text("The rig is registered", colour::good, Font::strong);
+        return wrapped("Regions land where they are painted. The light is steady and white: TAKE plays.");
+    }
+    text("Camera and projector are calibrated", colour::good, Font::strong);
+    wrapped("A scan measures depth now: put the things back and scan them.");
+    if (registerButton(p, "To the scan###registerToScan", ""))
+        p.requests.push_back(ChooseRegisterWay{RegisterWay::scan});
 }
 
 void column(Panel& p, const RegisterView& r) {
@@ -219,9 +223,8 @@ void column(Panel& p, const RegisterView& r) {
     ImGui::Dummy({1, p.px(4)});
     const bool busy = r.state == Phase::working || r.state == Phase::stopping;
     if (r.state == Phase::accepted) {
-        text("The rig is registered", colour::good, Font::strong);
-        wrapped("Regions land where they are painted. The light is steady and white: TAKE plays.");
-        if (button(p, "Close###registerClose", "")) ask(p, Step::close);
+        acceptedPart(p, r);
+        if (registerButton(p, "Close###registerClose", "")) ask(p, Step::close);
         ImGui::NewLine();
         return;
     }
@@ -230,18 +233,21 @@ void column(Panel& p, const RegisterView& r) {
     } else {
         ways(p, r);
         ImGui::Dummy({1, p.px(2)});
-        if (r.way == RegisterWay::scan) scanPart(p, r);
+        if (r.way == RegisterWay::scan) scanPart(p);
         if (r.way == RegisterWay::corners) cornersPart(p, r);
         if (r.way == RegisterWay::pairs) pairsPart(p, r);
         if (r.way == RegisterWay::board) boardPart(p);
+        if (r.way == RegisterWay::calibration) calibrationPart(p, r);
     }
+    if (!busy) pictures(p, r);
     if (!r.trouble.empty()) wrapped(r.trouble, colour::fault);
     if (!busy) found(p, r);
     lightLine(r);
-    if (r.way == RegisterWay::scan) findings(r);
+    if (r.way == RegisterWay::scan || r.way == RegisterWay::calibration) findings(r);
     legend(p, r);
     ImGui::Dummy({1, p.px(6)});
-    if (!busy && button(p, "Close###registerClose", "Steady white light; the rig stays as it is.")) ask(p, Step::close);
+    if (!busy && registerButton(p, "Close###registerClose", "Steady white light; the rig stays as it is."))
+        ask(p, Step::close);
     ImGui::NewLine();
 }
 
@@ -275,6 +281,19 @@ const char* methodName(Registration::Method method) {
 
 }  // namespace
 
+bool registerButton(Panel& p, const char* words, const char* help, bool enabled) {
+    const float width = std::max(p.px(80), ImGui::CalcTextSize(words, nullptr, true).x + p.px(24));
+    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+    ImGui::BeginDisabled(!enabled);
+    const bool pressed = ImGui::Button(words, {width, p.px(34)});
+    ImGui::EndDisabled();
+    tooltip(help);
+    ImGui::SameLine();
+    return pressed;
+}
+
+void ask(Panel& p, Step step) { p.requests.push_back(Register{step, p.state.registering}); }
+
 std::string word(RegisterWay way) {
     switch (way) {
     case RegisterWay::scan:
@@ -284,9 +303,11 @@ std::string word(RegisterWay way) {
     case RegisterWay::pairs:
         return "point pairs";
     case RegisterWay::board:
+        return "chessboard";
+    case RegisterWay::calibration:
         break;
     }
-    return "chessboard";
+    return "calibration";
 }
 
 void registerCard(Panel& p) {
@@ -300,6 +321,12 @@ void registerCard(Panel& p) {
         if (!own->camera.device.empty()) derivedRow(p, "Camera", own->camera.device);
     } else {
         wrapped("None: the picture is fitted into the projector's raster.", colour::warn, Font::small);
+    }
+    if (const auto& calibration = p.document().rig.calibration) {
+        derivedRow(p, "Calibrated",
+                   std::to_string(calibration->poses) + " poses, " + px(calibration->cameraRms_px) + ", " +
+                       px(calibration->projectorRms_px),
+                   "Camera and projector as pinholes, with which a scan measures depth; residuals of both.");
     }
     const std::string reason = whyNot(Command::registerCamera, p.view, p.state);
     ImGui::BeginDisabled(!reason.empty());

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ui/register_page.h"
+#include "ui/register_parts.h"
 #include "ui/widgets.h"
 
 namespace ilf::ui {
@@ -55,13 +56,47 @@ void pairs(Panel& p, const RegisterView& r, const Viewport& viewport, ImDrawList
         const ImVec2 at = vec(viewport.toWindow(pair.at.camera));
         draw.AddLine({at.x - p.px(8), at.y}, {at.x + p.px(8), at.y}, ink, p.px(1.5));
         draw.AddLine({at.x, at.y - p.px(8)}, {at.x, at.y + p.px(8)}, ink, p.px(1.5));
-        label(draw, {at.x + p.px(8), at.y + p.px(4)}, std::to_string(i + 1), ink);
+        const std::string words = std::to_string(i + 1) + (!pair.fitted ? ""
+                                                           : pair.used  ? "  " + px(pair.residual_px)
+                                                                        : "  left out");
+        label(draw, {at.x + p.px(8), at.y + p.px(4)}, words, ink);
     }
     if (!hovered) return;
     const ImVec2 at = vec(pointer());
     draw.AddCircle(at, p.px(10), colour::focus, 0, p.px(1));
     if (r.targetsLeft && r.showsMarks && ImGui::IsMouseClicked(ImGuiMouseButton_Left))
         p.requests.push_back(PlaceCross{viewport.toPicture(pointer())});
+}
+
+/// Corners of the newest pose, joined in their order, so that a board that was found the wrong way round shows.
+void boardMarks(Panel& p, const RegisterView& r, const Viewport& viewport, ImDrawList& draw) {
+    std::vector<ImVec2> at;
+    for (const auto& corner : r.calibration.corners)
+        at.push_back(vec(viewport.toWindow(corner)));
+    if (at.empty()) return;
+    draw.AddPolyline(at.data(), static_cast<int>(at.size()), faded(colour::focus, 0.5), 0, p.px(1));
+    for (const ImVec2& one : at)
+        draw.AddCircle(one, p.px(4), colour::good, 0, p.px(1.5));
+}
+
+void tape(Panel& p, const RegisterView& r, const Viewport& viewport, ImDrawList& draw, bool hovered) {
+    std::vector<ImVec2> at;
+    for (const auto& end : r.tape.ends)
+        at.push_back(vec(viewport.toWindow(end)));
+    if (at.size() == 2) {
+        draw.AddLine(at[0], at[1], colour::ground, p.px(4));
+        draw.AddLine(at[0], at[1], colour::safe, p.px(2));
+        if (r.tape.length > 0.0_m)
+            label(draw, {(at[0].x + at[1].x) / 2 + p.px(8), (at[0].y + at[1].y) / 2}, formatted(r.tape.length),
+                  colour::text);
+    }
+    for (const ImVec2& one : at) {
+        draw.AddCircle(one, p.px(6), colour::ground, 0, p.px(4));
+        draw.AddCircle(one, p.px(6), colour::safe, 0, p.px(2));
+    }
+    if (!hovered) return;
+    draw.AddCircle(vec(pointer()), p.px(10), colour::focus, 0, p.px(1));
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) p.requests.push_back(PlaceTape{viewport.toPicture(pointer())});
 }
 
 }  // namespace
@@ -85,10 +120,12 @@ void registerPicture(Panel& p, const RegisterView& r, const Rect& area) {
     ImGui::SetCursorScreenPos(from);
     ImGui::InvisibleButton("###registerPicture", {to.x - from.x, to.y - from.y});
     const bool hovered = ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
-    const bool settled = r.state == RegisterView::State::ready && !r.quality;
+    const bool ready = r.state == RegisterView::State::ready, settled = ready && r.shows == RegisterPicture::live;
     if (r.way == RegisterWay::corners && settled) corners(p, r, viewport, draw, hovered);
     if (r.way == RegisterWay::pairs && settled) pairs(p, r, viewport, draw, hovered);
-    if (!r.quality) return;
+    if (r.way == RegisterWay::calibration && r.state != RegisterView::State::working) boardMarks(p, r, viewport, draw);
+    if (ready && r.tape.placing) tape(p, r, viewport, draw, hovered);
+    if (r.shows != RegisterPicture::quality) return;
     for (const ScanFinding& finding : r.findings) {
         const auto& a = finding.area;
         if (a.empty()) continue;

@@ -102,11 +102,12 @@ struct Register {
         light,    ///< is this room's light low enough, and does the camera see this projector?
         scan,     ///< take all pictures, decode, check
         board,    ///< the same with a chessboard that the projector shows
+        pose,     ///< a scan of a printed chessboard as it is held now
         cancel,   ///< what is done now ends in steady white light
         marks,    ///< the projector shows its frame, or a numbered cross, or no longer
         another,  ///< the cross goes to another place
-        picture,  ///< the live picture instead of the quality map, and back
-        accept,   ///< the registration goes into the rig
+        tape,     ///< clicks on the picture are a tape measure's ends, or no longer
+        accept,   ///< the registration, or calibration, goes into the rig
         close,
         shift,  ///< the camera was bumped: picture, regions and map move along
         quiet,  ///< it was, and the operator knows
@@ -128,17 +129,35 @@ struct PlaceCross {
 struct RemovePair {
     std::size_t pair = 0;
 };
+struct ShowRegisterPicture {
+    RegisterPicture what = RegisterPicture::live;
+};
+/// What is printed; poses of another board are forgotten.
+struct SetBoard {
+    Board board;
+};
+struct RemovePose {
+    std::size_t pose = 0;
+};
+/// One end of a tape measure in the camera's picture; a third click begins anew.
+struct PlaceTape {
+    Point<CameraFrame> at;
+};
+/// What the tape says between its two ends.
+struct TapeSays {
+    Metre length;
+};
 /// Which printed markers are in the scene's picture and the live one: what FollowView::markers will say.
 struct LookForMarkers {};
 /// Answer to the recovery question at start.
 struct Recover {
     enum class Choice { recover, openSaved, skip } choice = Choice::recover;
 };
-using Request = std::variant<EditRequest, CommitGesture, CancelGesture, RunCommand, OpenFile, SaveFile, ExportView,
-                             OpenCamera, SeekVideo, SelectObject, SelectFlood, GoToHistory, AcknowledgeFault,
-                             LoadDepthMap, UseRig, SaveRig, Measure, StartMeasuring, StoreMeasured, Register,
-                             ChooseRegisterWay, PlaceCorner, PlaceCross, RemovePair, Recover,
-                             LookForMarkers>;
+using Request =
+    std::variant<EditRequest, CommitGesture, CancelGesture, RunCommand, OpenFile, SaveFile, ExportView, OpenCamera,
+                 SeekVideo, SelectObject, SelectFlood, GoToHistory, AcknowledgeFault, LoadDepthMap, UseRig, SaveRig,
+                 Measure, StartMeasuring, StoreMeasured, Register, ChooseRegisterWay, PlaceCorner, PlaceCross,
+                 RemovePair, ShowRegisterPicture, SetBoard, RemovePose, PlaceTape, TapeSays, Recover, LookForMarkers>;
 using Requests = std::vector<Request>;
 
 }  // namespace ilf::ui

@@ -88,7 +88,10 @@ void distanceFields(Panel& p, const Region& region) {
         Metre at = planned != nullptr && isFinite(planned->nearest) ? planned->nearest : 1.0_m;
         if (const auto* constant = std::get_if<ConstantDistance>(&distance)) at = constant->value;
         if (*picked == 0) p.commit(SetDistance{region.id, ConstantDistance{at, {}}});
-        if (*picked == 1) p.commit(SetDistance{region.id, planeOver(p, region, at)});
+        if (*picked == 1) {
+            const auto fitted = fittedPlane(p.document(), region);  // refused where there is no depth to fit
+            p.commit(SetDistance{region.id, fitted ? fitted->distance : planeOver(p, region, at)});
+        }
         if (*picked == 2 && p.document().scene.depth) p.commit(SetDistance{region.id, FromDepthMap{}});
         if (*picked == 2 && !p.document().scene.depth) {
             say(p.state, "This scene has no depth map. Load one on the Scene page first, or scan.", Tone::warning,
@@ -108,7 +111,7 @@ void distanceFields(Panel& p, const Region& region) {
     } else if (const auto* plane = std::get_if<PlaneDistance>(&distance)) {
         for (std::size_t i = 0; i < plane->anchors.size(); ++i) {
             ImGui::PushID(static_cast<int>(i));
-            const std::string label = "  anchor " + std::to_string(i + 1);
+            const std::string label = "  point " + std::to_string(i + 1);
             if (const auto change = numberRow(p, label.c_str(), "###anchor", plane->anchors[i].distance.si(),
                                               distanceSpec(), focus && i == 0)) {
                 PlaneDistance next = *plane;

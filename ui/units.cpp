@@ -150,7 +150,7 @@ std::string formatted(double si, Unit unit) {
     case Unit::percent:
         return decimals(si * 1e2, 0, " %");
     case Unit::number:
-        return decimals(si, 2, "");
+        return decimals(si, std::abs(size - std::round(size)) < 0.005 ? 0 : 2, "");  // what is counted is whole
     }
     return {};
 }

@@ -13,6 +13,7 @@
 #include "app/headless/own_core.h"
 #include "app/headless/prepare.h"
 #include "app/rigs.h"
+#include "app/scan/light_map.h"
 #include "app/scan/scan.h"
 #include "app/scan/scan_truth.h"
 #include "core/base/as_text.h"
@@ -141,7 +142,8 @@ Result<ScanOutcome> scannedOnOwnCore(const ScanOptions& options, ScanOrder& orde
 Result<void> reported(const ScanOptions& options, const ScanOrder& order, const ScanOutcome& outcome) {
     ordered_json json = asJson(outcome, provenanceOf(order));
     if (!options.quality.empty()) {
-        if (const auto done = projects::writePng(options.quality, qualityMap(outcome.decoded)); !done) return done;
+        const auto map = outcome.black.empty() ? qualityMap(outcome.decoded) : lightMap(outcome.white, outcome.black);
+        if (const auto done = projects::writePng(options.quality, map); !done) return done;
     }
     const auto truth = againstTruth(order, outcome);
     if (truth)

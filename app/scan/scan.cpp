@@ -44,9 +44,9 @@ Registration registrationOf(const ScanOrder& order, const ScanOutcome& outcome, 
     return found;
 }
 
-/// Decodes, diagnoses and checks while patterns can still be shown.
-Result<void> evaluate(const ScanOrder& order, devices::PatternCamera& taker, const devices::CapturedScan& captured,
-                      ScanOutcome& outcome) {
+/// Decodes and diagnoses.
+Result<void> evaluate(const ScanOrder& order, const devices::PatternCamera& taker,
+                      const devices::CapturedScan& captured, ScanOutcome& outcome) {
     outcome.captured = captured;
     if (!order.keep.empty()) {
         if (const auto kept = keepPictures(order.keep, captured.scan); !kept) return kept;
@@ -56,10 +56,23 @@ Result<void> evaluate(const ScanOrder& order, devices::PatternCamera& taker, con
     if (!decoded) return tl::unexpected(decoded.error());
     outcome.decoded = *std::move(decoded);
     outcome.diagnosis = scanDiagnosis(captured.scan, outcome.decoded);
-    if (!outcome.diagnosis.usable()) {
-        outcome.trouble = outcome.diagnosis.findings.front().what;
-        return {};
+    if (!outcome.diagnosis.usable()) outcome.trouble = outcome.diagnosis.findings.front().what;
+    return {};
+}
+
+void measureDepth(const ScanOrder& order, const DenseMap& map, ScanOutcome& outcome) {
+    if (!order.rig.calibration) return;
+    auto depth = triangulated(map, *order.rig.calibration);
+    if (!depth) {
+        outcome.noDepth = depth.error().what;
+        return;
     }
+    outcome.depth = *std::move(depth);
+    outcome.depth->depth.source = "scan by " + outcome.captured.mode.device;
+}
+
+/// Makes the map and checks it while patterns can still be shown.
+Result<void> mapAndCheck(const ScanOrder& order, devices::PatternCamera& taker, ScanOutcome& outcome) {
     auto map = denseMap(outcome.decoded);
     if (!map) {
         outcome.trouble = map.error().what;
@@ -73,7 +86,9 @@ Result<void> evaluate(const ScanOrder& order, devices::PatternCamera& taker, con
     outcome.columns = *columns;
     outcome.rows = *rows;
     outcome.trouble = failedCheck(*columns, *rows);
-    if (outcome.trouble.empty()) outcome.registration = Box(registrationOf(order, outcome, *std::move(map)));
+    if (!outcome.trouble.empty()) return {};
+    measureDepth(order, *map, outcome);
+    outcome.registration = Box(registrationOf(order, outcome, *std::move(map)));
     return {};
 }
 
@@ -90,17 +105,31 @@ std::string provenanceOf(const ScanOrder& order) {
     return order.camera == devices::kSimulatedCameraId ? "simulated" : "measured";
 }
 
-Result<ScanOutcome> scanned(const ScanOrder& order, const devices::ScanWatch& watch, const std::stop_token& stop) {
+Result<ScanOutcome> scannedPictures(const ScanOrder& order, const devices::ScanWatch& watch,
+                                    const std::stop_token& stop, const AlsoScanned& also) {
     const auto camera = openedCamera(order);
     if (!camera) return tl::unexpected(camera.error());
     devices::CoreShow show(order.runtimeDirectory, order.rig, order.rest, stop);
     ScanOutcome outcome;
-    const auto captured = devices::capturedScan(**camera, show, order.wish, watch, stop,
-                                                [&](devices::PatternCamera& taker, const devices::CapturedScan& all) {
-                                                    return evaluate(order, taker, all, outcome);
-                                                });
-    if (!captured) return tl::unexpected(captured.error());
+    const auto after = [&](devices::PatternCamera& taker, const devices::CapturedScan& all) -> Result<void> {
+        if (const auto done = evaluate(order, taker, all, outcome); !done || !outcome.trouble.empty()) return done;
+        return also(taker, outcome);
+    };
+    devices::PatternCamera taker(**camera, show, order.wish, watch, stop);
+    const auto captured = devices::capturedScan(taker, **camera, show, after);
+    if (captured) return outcome;
+    if (stop.stop_requested() || taker.black().empty()) return tl::unexpected(captured.error());
+    outcome.captured = taker.facts();
+    outcome.trouble = captured.error().what;
+    outcome.white = taker.white();
+    outcome.black = taker.black();
     return outcome;
+}
+
+Result<ScanOutcome> scanned(const ScanOrder& order, const devices::ScanWatch& watch, const std::stop_token& stop) {
+    return scannedPictures(order, watch, stop, [&](devices::PatternCamera& taker, ScanOutcome& outcome) {
+        return mapAndCheck(order, taker, outcome);
+    });
 }
 
 }  // namespace ilf::app

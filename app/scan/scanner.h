@@ -8,13 +8,14 @@
 
 #include "app/scan/board_scan.h"
 #include "app/scan/light_check.h"
+#include "app/scan/pose_scan.h"
 #include "app/scan/scan.h"
 #include "core/base/latest.h"
 
 namespace ilf::app {
 
 /// What a piece of work found.
-using ScanWorkDone = std::variant<ScanOutcome, LightCheck, PairedRegistration>;
+using ScanWorkDone = std::variant<ScanOutcome, LightCheck, PairedRegistration, PosesOutcome>;
 using ScanWork = std::function<Result<ScanWorkDone>(const devices::ScanWatch&, const std::stop_token&)>;
 
 /// All functions are for the thread that made it and never wait; its end cancels and waits (a frame or two, and for

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "app/scan/light_map.h"
 #include "app/studio/register_marks.h"
-#include "app/words.h"
 #include "devices/emulated_scene/emulated_camera.h"
 
 namespace ilf::app {
@@ -29,19 +29,9 @@ ui::RegisterWay wayOf(Registration::Method method) {
     return RegisterWay::scan;
 }
 
-ui::RegisterFound shown(const Registration& registration, std::string note) {
-    return {wayOf(registration.method), registration.rms_px,     registration.worst_px,
-            registration.points,        registration.provenance, std::move(note)};
-}
-
 /// Frames in which an automatic exposure finds itself in steady light; without any, the scan's own picture will do.
 constexpr int kAdapting = 10;
 constexpr std::chrono::seconds kNoFrames{4};
-
-/// The id without the words that say what the emulated scene shall be.
-std::string deviceOf(const std::string& camera) {
-    return devices::isEmulatedCamera(camera) ? devices::kEmulatedCameraId : camera;
-}
 
 }  // namespace
 
@@ -50,7 +40,7 @@ Registrar::Registrar(std::filesystem::path runtimeDirectory, std::function<void(
 
 std::string Registrar::wantsCamera() const {
     const bool taken = !view_ || view_->state == State::working || view_->state == State::stopping;
-    return taken ? std::string() : view_->camera;
+    return taken ? std::string() : cameraAt(std::max(1, posesScanned_));
 }
 
 void Registrar::open(const Rig& rig, Dioptre rest, const std::string& camera) {
@@ -60,9 +50,10 @@ void Registrar::open(const Rig& rig, Dioptre rest, const std::string& camera) {
     places_ = crossPlaces(rig.projector);
     place_ = 0;
     placed_ = closing_ = false;
-    live_ = quality_ = white_ = {};
+    live_ = quality_ = depthShown_ = white_ = {};
     found_ = {};
     view_.emplace();
+    view_->calibrated = static_cast<bool>(rig_.calibration);
     view_->legend = qualityLegend();
     view_->target = places_.front();
     chooseCamera(camera);
@@ -71,6 +62,7 @@ void Registrar::open(const Rig& rig, Dioptre rest, const std::string& camera) {
 void Registrar::close() {
     if (!view_) return;
     hideMarks();
+    forgetFound();
     closing_ = true;
     if (scanner_) return cancel();
     view_.reset();
@@ -82,14 +74,17 @@ void Registrar::chooseCamera(const std::string& id) {
     view_->emulated = devices::isEmulatedCamera(id);
     view_->state = State::ready;
     view_->light.reset();
-    view_->findings.clear();
-    view_->remarks.clear();
-    view_->decodedShare = -1.0;
+    forgetLooks();
     view_->trouble.clear();
     view_->pairs.clear();
     view_->worst = -1;
-    view_->picture = live_ = quality_ = white_ = {};
-    view_->quality = view_->hasQuality = placed_ = false;
+    view_->picture = live_ = quality_ = depthShown_ = white_ = {};
+    view_->shows = ui::RegisterPicture::live;
+    placed_ = false;
+    poses_.clear();
+    posesScanned_ = 0;
+    view_->calibration.next = 1;
+    showPoses({}, {});
     place_ = 0;
     forgetFound();
     showMark();
@@ -101,9 +96,9 @@ void Registrar::choose(RegisterWay way) {
     view_->way = way;
     view_->state = State::ready;
     view_->trouble.clear();
-    view_->quality = false;
-    view_->picture = live_;
+    forgetLooks();
     forgetFound();
+    showPicture(ui::RegisterPicture::live);
     if (way == RegisterWay::pairs) fitPairs();
 }
 
@@ -112,12 +107,13 @@ ScanOrder Registrar::order() const { return {rig_, rest_, directory_, view_->cam
 void Registrar::begin(ScanWork work) {
     if (!view_ || scanner_ || view_->camera.empty()) return;
     hideMarks();
+    forgetLooks();
     forgetFound();
     view_->state = State::working;
     view_->trouble.clear();
     view_->doing.clear();
     view_->done = 0;
-    view_->quality = false;
+    view_->shows = ui::RegisterPicture::live;
     scanner_ = std::make_unique<Scanner>(std::move(work), [this] {
         if (onNews_) onNews_();
     });
@@ -125,10 +121,6 @@ void Registrar::begin(ScanWork work) {
 
 void Registrar::scan(bool anyway) {
     if (!view_ || scanner_) return;
-    view_->findings.clear();
-    view_->remarks.clear();
-    view_->decodedShare = -1.0;
-    view_->hasQuality = false;
     ScanOrder wanted = order();
     wanted.wish.anyway = anyway;
     begin([run = parts_.scan, wanted](const auto& watch, const auto& stop) -> Result<ScanWorkDone> {
@@ -170,109 +162,19 @@ void Registrar::livePicture(const Image<std::uint8_t>& rgb) {
     if (!live_.empty() && live_.size() != rgb.size()) placed_ = false;
     live_ = rgb;
     ++steadyFrames_;
-    if (!view_->quality) view_->picture = live_;
+    if (view_->shows == ui::RegisterPicture::live) view_->picture = live_;
     if (placed_) return;
     placed_ = true;
     const double w = rgb.width(), h = rgb.height();
     view_->corners = {{{0.2 * w, 0.2 * h}, {0.8 * w, 0.2 * h}, {0.8 * w, 0.8 * h}, {0.2 * w, 0.8 * h}}};
 }
 
-void Registrar::togglePicture() {
-    if (!view_ || scanner_ || !view_->hasQuality) return;
-    view_->quality = !view_->quality;
-    view_->picture = view_->quality ? quality_ : live_;
-}
-
-void Registrar::toggleMarks() {
+void Registrar::showPicture(ui::RegisterPicture what) {
+    using What = ui::RegisterPicture;
     if (!view_ || scanner_) return;
-    if (marks_) return hideMarks();
-    marks_ = std::make_unique<MarksShow>(directory_, rig_, rest_, onNews_);
-    view_->showsMarks = true;
-    view_->trouble.clear();
-    showMark();
-}
-
-void Registrar::hideMarks() {
-    marks_.reset();
-    if (view_) view_->showsMarks = false;
-}
-
-void Registrar::showMark() {
-    view_->targetsLeft = place_ < places_.size();
-    if (view_->targetsLeft) view_->target = places_[place_];
-    if (!marks_) return;
-    if (view_->way == RegisterWay::corners)
-        marks_->show(framePicture(rig_.projector));
-    else if (view_->targetsLeft)
-        marks_->show(crossPicture(rig_.projector, view_->target, static_cast<int>(view_->pairs.size()) + 1));
-}
-
-void Registrar::anotherPlace() {
-    if (!view_ || scanner_ || view_->way != RegisterWay::pairs || place_ >= places_.size()) return;
-    std::rotate(places_.begin() + static_cast<std::ptrdiff_t>(place_),
-                places_.begin() + static_cast<std::ptrdiff_t>(place_) + 1, places_.end());
-    showMark();
-}
-
-void Registrar::placeCorner(int corner, Point<CameraFrame> at) {
-    if (!view_ || scanner_ || view_->way != RegisterWay::corners || live_.empty() || corner < 0 || corner > 3) return;
-    const Size size = live_.size();
-    view_->corners[static_cast<std::size_t>(corner)] = {std::clamp(at.x, -0.5 * size.width, 1.5 * size.width),
-                                                        std::clamp(at.y, -0.5 * size.height, 1.5 * size.height)};
-    foundByHand(registeredByCorners(view_->corners, size, rig_.projector));
-}
-
-void Registrar::placeCross(Point<CameraFrame> at) {
-    if (!view_ || !marks_ || view_->way != RegisterWay::pairs || place_ >= places_.size()) return;
-    view_->pairs.push_back({{at, places_[place_]}});
-    ++place_;
-    fitPairs();
-    showMark();
-}
-
-void Registrar::removePair(std::size_t pair) {
-    if (!view_ || scanner_ || pair >= view_->pairs.size()) return;
-    // Its place is asked for again, next.
-    const auto gone = places_.begin() + static_cast<std::ptrdiff_t>(pair);
-    std::rotate(gone, gone + 1, places_.begin() + static_cast<std::ptrdiff_t>(place_));
-    --place_;
-    view_->pairs.erase(view_->pairs.begin() + static_cast<std::ptrdiff_t>(pair));
-    fitPairs();
-    showMark();
-}
-
-void Registrar::fitPairs() {
-    view_->worst = -1;
-    for (ui::RegisterPair& pair : view_->pairs)
-        pair.fitted = false, pair.used = true;
-    forgetFound();
-    view_->trouble.clear();
-    if (view_->pairs.size() < 4 || live_.empty()) return;
-    std::vector<PointPair> points;
-    for (const ui::RegisterPair& pair : view_->pairs)
-        points.push_back(pair.at);
-    const auto found = registeredByPairs(points, live_.size(), rig_.projector);
-    foundByHand(found);
-    if (!found) return;
-    view_->worst = found->worst;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        view_->pairs[i].residual_px = found->residual_px[i];
-        view_->pairs[i].used = found->used[i];
-        view_->pairs[i].fitted = true;
-    }
-}
-
-void Registrar::foundByHand(const Result<PairedRegistration>& found) {
-    forgetFound();
-    view_->trouble.clear();
-    if (!found) return refuse(found.error().what);
-    Registration registration = found->registration;
-    registration.camera.device = deviceOf(view_->camera);
-    registration.taken = utcNow();
-    registration.projectorName = rig_.name;
-    registration.provenance = provenanceOf(order());
-    view_->found = shown(registration, found->note);
-    found_ = Box(std::move(registration));
+    if ((what == What::quality && !view_->hasQuality) || (what == What::depth && !view_->hasDepth)) return;
+    view_->shows = what;
+    view_->picture = what == What::quality ? quality_ : what == What::depth ? depthShown_ : live_;
 }
 
 void Registrar::lightOf(const AmbientCheck& ambient, Second exposure) {
@@ -285,62 +187,104 @@ void Registrar::take(const LightCheck& check) {
     if (!check.trouble.empty()) refuse(check.trouble);
 }
 
-void Registrar::take(const ScanOutcome& outcome) {
-    lightOf(outcome.captured.ambient, outcome.captured.exposure);
+void Registrar::looked(const ScanOutcome& outcome) {
+    if (outcome.captured.ambient.lit > 0.0) lightOf(outcome.captured.ambient, outcome.captured.exposure);
     view_->remarks = outcome.captured.remarks;
     view_->findings = outcome.diagnosis.findings;
-    view_->decodedShare = outcome.diagnosis.decodedShare;
-    quality_ = qualityMap(outcome.decoded);
-    view_->hasQuality = view_->quality = true;
-    view_->picture = quality_;
-    if (!outcome.trouble.empty()) {
-        // A finding says the same: once is enough.
-        const bool said =
-            std::ranges::any_of(view_->findings, [&](const auto& f) { return f.what == outcome.trouble; });
-        if (!said) refuse(outcome.trouble);
-    }
-    if (!outcome.registration) return;
-    found_ = outcome.registration;
-    view_->found = shown(*found_, {});
-    white_ = outcome.captured.scan.pictures.front();
+    const bool decoded = outcome.black.empty();
+    view_->decodedShare = decoded ? outcome.diagnosis.decodedShare : -1.0;
+    quality_ = decoded ? qualityMap(outcome.decoded) : lightMap(outcome.white, outcome.black);
+    view_->legend = decoded ? qualityLegend() : lightLegend();
+    view_->hasQuality = true;
+    showPicture(ui::RegisterPicture::quality);
 }
 
-void Registrar::take(const PairedRegistration& board) {
-    found_ = Box(board.registration);
-    view_->found = shown(board.registration, board.note);
+void Registrar::take(const ScanOutcome& outcome) {
+    looked(outcome);
+    if (!outcome.trouble.empty()) refuse(outcome.trouble);
+    if (!outcome.registration) return;
+    showFound(outcome.registration, {});
+    view_->found->noDepth = outcome.noDepth;
+    white_ = outcome.captured.scan.pictures.front();
+    if (!outcome.depth) return;
+    depth_ = outcome.depth->depth;
+    view_->tape.scale = rig_.calibration ? rig_.calibration->scale : std::string();
+    showDepth();
+}
+
+void Registrar::take(const PairedRegistration& board) { showFound(Box(board.registration), board.note); }
+
+void Registrar::showFound(Box<Registration> registration, std::string note) {
+    found_ = std::move(registration);
+    ui::RegisterFound& found = view_->found.emplace();
+    found.way = wayOf(found_->method);
+    found.rms_px = found_->rms_px;
+    found.worst_px = found_->worst_px;
+    found.points = found_->points;
+    found.provenance = found_->provenance;
+    found.note = std::move(note);
+}
+
+void Registrar::forgetLooks() {
+    view_->findings.clear();
+    view_->remarks.clear();
+    view_->decodedShare = -1.0;
+    view_->hasQuality = false;
 }
 
 void Registrar::forgetFound() {
     accepting_.reset();
     white_ = {};
     found_ = {};
-    if (view_) view_->found.reset();
+    depth_.reset();
+    scaled_ = {};
+    if (!view_) return;
+    view_->found.reset();
+    view_->hasDepth = false;
+    view_->tape = {};
 }
 
-void Registrar::refuse(const std::string& why) { view_->trouble = why; }
+void Registrar::refuse(const std::string& why) {
+    // Where a finding says the same, once is enough.
+    if (std::ranges::none_of(view_->findings, [&](const auto& finding) { return finding.what == why; }))
+        view_->trouble = why;
+}
 
-void Registrar::accept(bool asScene) {
-    if (!view_ || scanner_ || !found_ || accepting_) return;
+void Registrar::accept(const ui::RegisterSetup& setup) {
+    const bool any = view_ && (view_->way == RegisterWay::calibration ? bool(view_->calibration.found) : bool(found_));
+    if (!any || scanner_ || accepting_) return;
     hideMarks();
     steadyFrames_ = 0;
-    accepting_ = {asScene, std::chrono::steady_clock::now()};
+    accepting_ = {setup, std::chrono::steady_clock::now()};
 }
 
 std::optional<Registrar::ToWrite> Registrar::toWrite() {
-    if (!accepting_ || !found_) return std::nullopt;
-    const bool waited = std::chrono::steady_clock::now() - accepting_->since > kNoFrames;
-    if (accepting_->asScene && steadyFrames_ < kAdapting && !waited) return std::nullopt;
-    ToWrite both{found_, {}};
-    if (accepting_->asScene) both.picture = steadyFrames_ >= kAdapting ? live_ : white_;
+    if (!view_ || !accepting_) return std::nullopt;
+    const ui::RegisterSetup setup = accepting_->setup;
+    ToWrite all;
+    if (view_->way == RegisterWay::calibration) {
+        all.calibration = Box(view_->calibration.found->calibration);
+    } else {
+        const bool waited = std::chrono::steady_clock::now() - accepting_->since > kNoFrames;
+        if (setup.asScene && steadyFrames_ < kAdapting && !waited) return std::nullopt;
+        all.registration = found_;
+        all.calibration = scaled_;
+        if (setup.asScene) all.picture = steadyFrames_ >= kAdapting ? live_ : white_;
+        if (setup.asScene && setup.depth && depth_) all.depth = Box(*depth_);
+    }
     accepting_.reset();
-    return both;
+    return all;
 }
 
-void Registrar::accepted() {
+void Registrar::accepted(const Rig& rig) {
     if (!view_) return;
+    rig_ = rig;
+    view_->calibrated = static_cast<bool>(rig_.calibration);
     view_->state = State::accepted;
     view_->trouble.clear();
+    forgetLooks();
     forgetFound();
+    showPicture(ui::RegisterPicture::live);
 }
 
 bool Registrar::collect() {
@@ -368,7 +312,7 @@ bool Registrar::collect() {
         return true;
     }
     view_->state = State::ready;
-    view_->picture = live_;
+    showPicture(ui::RegisterPicture::live);
     if (*result)
         std::visit([this](const auto& done) { take(done); }, **result);
     else

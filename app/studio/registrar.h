@@ -23,6 +23,9 @@ struct RegisterParts {
         &lightChecked;
     std::function<Result<PairedRegistration>(const ScanOrder&, const devices::ScanWatch&, const std::stop_token&)>
         board = &scannedBoard;
+    std::function<Result<PosesOutcome>(const ScanOrder&, const Board&, std::vector<BoardView>, const std::string& name,
+                                       const devices::ScanWatch&, const std::stop_token&)>
+        pose = &scannedPose;
 };
 
 /// Whatever is begun here ends in steady white light with the lens at rest. While `shows()`, nobody else may send to
@@ -52,14 +55,21 @@ public:
     void scan(bool anyway);
     void checkLight();
     void findBoard();
+    void scanPose();
     /// F12 as well: what is shown ends, nothing is kept.
     void cancel();
     void toggleMarks();
     void anotherPlace();
-    void togglePicture();
+    void showPicture(ui::RegisterPicture what);
     void placeCorner(int corner, Point<CameraFrame> at);
     void placeCross(Point<CameraFrame> at);
     void removePair(std::size_t pair);
+    void setBoard(const Board& board);
+    void removePose(std::size_t pose);
+    void toggleTape();
+    void placeTape(Point<CameraFrame> at);
+    /// The tape's length: depth and calibration are scaled to it.
+    void tapeSays(Metre length);
 
     /// A frame of the camera that is wanted: RGB.
     void livePicture(const Image<std::uint8_t>& rgb);
@@ -67,30 +77,42 @@ public:
     const Box<Registration>& found() const { return found_; }
     /// What was found shall go into the rig. Marks end; where the scene's picture is wanted, `toWrite` waits for frames
     /// under steady light, which the caller asks for.
-    void accept(bool asScene);
+    void accept(const ui::RegisterSetup& setup);
+    /// What is empty stays as it is.
     struct ToWrite {
         Box<Registration> registration;
-        Image<std::uint8_t> picture;  ///< under white light; grey or RGB; empty: not wanted
+        Box<ProcamCalibration> calibration;
+        Image<std::uint8_t> picture;  ///< under white light; grey or RGB
+        Box<MeasuredDepth> depth;     ///< of the picture
     };
     /// Once, when all is there.
     std::optional<ToWrite> toWrite();
-    /// It went into the rig.
-    void accepted();
+    /// It went into the rig, which is this one now.
+    void accepted(const Rig& rig);
 
     /// Takes what other threads have done; true if there was anything.
     bool collect();
 
 private:
     ScanOrder order() const;
+    /// The camera; an emulated one that nobody told about a board sees the `pose`-th while one is asked for.
+    std::string cameraAt(int pose) const;
     void begin(ScanWork work);
     void take(const ScanOutcome& outcome);
     void take(const LightCheck& check);
     void take(const PairedRegistration& board);
+    void take(const PosesOutcome& poses);
+    void looked(const ScanOutcome& outcome);
+    void showPoses(const Box<Calibrated>& found, std::string refused);
+    void showDepth();
+    void measureTape();
     void foundByHand(const Result<PairedRegistration>& found);
     void lightOf(const AmbientCheck& ambient, Second exposure);
     void fitPairs();
     void showMark();
     void hideMarks();
+    void showFound(Box<Registration> registration, std::string note);
+    void forgetLooks();
     void forgetFound();
     void refuse(const std::string& why);
 
@@ -103,15 +125,19 @@ private:
     Dioptre rest_;
     bool closing_ = false;
     bool placed_ = false;  ///< corners were put inside this camera's picture
-    Image<std::uint8_t> live_, quality_;
+    Image<std::uint8_t> live_, quality_, depthShown_;
     Image<std::uint8_t> white_;  ///< of the scan that found something
     int steadyFrames_ = 0;       ///< live ones since the last light of ours
     struct Accepting {
-        bool asScene = true;
+        ui::RegisterSetup setup;
         std::chrono::steady_clock::time_point since;
     };
     std::optional<Accepting> accepting_;
     Box<Registration> found_;
+    std::vector<BoardView> poses_;
+    int posesScanned_ = 0;
+    std::optional<MeasuredDepth> depth_;  ///< of what was found
+    Box<ProcamCalibration> scaled_;       ///< by the tape that `depth_` follows; empty: the rig's own holds
     std::vector<Point<ProjectorFrame>> places_;
     std::size_t place_ = 0;
 

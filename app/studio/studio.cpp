@@ -204,10 +204,7 @@ void Studio::collect() {
     if (measurer_.collect()) quietFrames_ = 0;
     lendDevices();
     tendRegistering();
-    if (auto report = bumpWatch_.tryTake()) {
-        bump_ = report->bumped ? std::move(report) : std::nullopt;
-        quietFrames_ = 0;
-    }
+    takeBump();
     if (camera_.collect()) takeFrame();
     followRegions();
     for (const std::string& sentence : camera_.takeSentences())

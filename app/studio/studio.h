@@ -79,6 +79,11 @@ private:
     void on(const ui::PlaceCorner& request);
     void on(const ui::PlaceCross& request);
     void on(const ui::RemovePair& request);
+    void on(const ui::ShowRegisterPicture& request);
+    void on(const ui::SetBoard& request);
+    void on(const ui::RemovePose& request);
+    void on(const ui::PlaceTape& request);
+    void on(const ui::TapeSays& request);
     void on(const ui::Recover& request);
     void on(const ui::LookForMarkers& request);
 
@@ -94,6 +99,7 @@ private:
     bool followsOnShow() const;     ///< what plays moves along with what is followed
     const Document& shown() const;  ///< the document, with what follows where it is where the live picture is seen
     void lookForBump();
+    void takeBump();
     void followBump();
     void setScene(Scene scene);
     Scene carriedOver(Scene scene) const;  ///< with what the scene before it knows and its picture does not change
@@ -118,6 +124,7 @@ private:
     Registrar registrar_;
     std::string registeringCamera_;   ///< open for the page
     bool cameraBefore_ = false;       ///< one was open before the page was
+    bool registered_ = false;         ///< by the page: its camera stays open, to be watched for bumps
     std::optional<BumpReport> bump_;  ///< the camera was moved
     Box<Registration> bumpQuiet_;     ///< the operator knows that it no longer holds
     double bumpLookedAt_s_ = 0.0;

@@ -1,4 +1,6 @@
 // Whether the camera was bumped since it was registered: looked at each second, said once, one click to follow it.
+#include <spdlog/spdlog.h>
+
 #include <utility>
 
 #include "app/studio/studio.h"
@@ -16,9 +18,8 @@ void Studio::lookForBump() {
     const Box<Registration>& own = document.rig.registration;
     const Scene& scene = document.scene;
     // The scene's picture is the reference: it was taken by this camera where it was registered.
-    const bool comparable = own && !registrar_.view() && scene.picture && camera_.live() &&
-                            camera_.id() == own->camera.device && scene.source == own->camera.device &&
-                            camera_.frame().rgb.size() == scene.size();
+    const bool comparable = own && !registrar_.view() && scene.picture && camera_.id() == own->camera.device &&
+                            scene.source == own->camera.device && camera_.frame().rgb.size() == scene.size();
     if (!comparable || own.same(bumpQuiet_)) {
         bump_.reset();
         return;
@@ -28,8 +29,17 @@ void Studio::lookForBump() {
     bumpWatch_.compare(scene.picture, camera_.frame().rgb);
 }
 
+void Studio::takeBump() {
+    auto report = bumpWatch_.tryTake();
+    if (!report) return;
+    if (report->bumped && !bump_)
+        spdlog::warn("the camera was moved: what it sees lies {:.1f} px aside", report->moved_px);
+    bump_ = report->bumped ? std::move(report) : std::nullopt;
+    quietFrames_ = 0;
+}
+
 void Studio::followBump() {
-    if (!bump_ || !bump_->newFromOld || !camera_.live()) return;
+    if (!bump_ || !bump_->newFromOld || camera_.id().empty()) return;
     const Document& document = editor_.document();
     const Motion motion = *bump_->newFromOld;
     bump_.reset();

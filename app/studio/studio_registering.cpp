@@ -1,7 +1,11 @@
 // What the studio does while a camera is registered: it lends camera and light, and writes what was found into the rig.
+#include <spdlog/spdlog.h>
+
 #include "app/studio/studio.h"
+#include "core/base/as_text.h"
 #include "core/optics/eye.h"
 #include "devices/camera/list.h"
+#include "ui/register_page.h"
 
 namespace ilf::app {
 namespace {
@@ -27,6 +31,29 @@ std::string usualCamera(const Rig& rig, const devices::Status& core) {
     return devices::kEmulatedCameraId;
 }
 
+bool works(const std::optional<ui::RegisterView>& page) {
+    return page &&
+           (page->state == ui::RegisterView::State::working || page->state == ui::RegisterView::State::stopping);
+}
+
+/// What an operator wants to find in the log afterwards.
+void logOutcome(const ui::RegisterView& page) {
+    const std::string by = "registering by " + ui::word(page.way);
+    if (page.found) spdlog::info("{}: found, {} px rms", by, asText("%.2f", page.found->rms_px));
+    if (page.found && page.found->depth)
+        spdlog::info("{}: depth known to {} mm", by, asText("%.1f", 1e3 * page.found->depth->sigma.si()));
+    const bool calibrates = page.way == ui::RegisterWay::calibration;
+    if (calibrates && page.calibration.found) {
+        const ProcamCalibration& found = page.calibration.found->calibration;
+        spdlog::info("{}: {} poses, camera {} px rms, projector {} px rms", by, found.poses,
+                     asText("%.3f", found.cameraRms_px), asText("%.3f", found.projectorRms_px));
+    }
+    if (calibrates && !page.calibration.refused.empty()) spdlog::info("{}: {}", by, page.calibration.refused);
+    for (const ScanFinding& finding : page.findings)
+        spdlog::warn("{}: {}", by, finding.what);
+    if (!page.trouble.empty()) spdlog::warn("{}: {}", by, page.trouble);
+}
+
 }  // namespace
 
 void Studio::on(const ui::Register& request) {
@@ -48,6 +75,9 @@ void Studio::on(const ui::Register& request) {
     case Step::board:
         lends();
         return registrar_.findBoard();
+    case Step::pose:
+        lends();
+        return registrar_.scanPose();
     case Step::cancel:
         return registrar_.cancel();
     case Step::marks:
@@ -55,12 +85,12 @@ void Studio::on(const ui::Register& request) {
         return registrar_.toggleMarks();
     case Step::another:
         return registrar_.anotherPlace();
-    case Step::picture:
-        return registrar_.togglePicture();
+    case Step::tape:
+        return registrar_.toggleTape();
     case Step::accept:
         if (core_.light != devices::LightMode::steady && !registrar_.shows()) link_.safeLight();
         forgetTake();
-        return registrar_.accept(request.setup.asScene);
+        return registrar_.accept(request.setup);
     case Step::close:
         return registrar_.close();
     case Step::shift:
@@ -76,6 +106,11 @@ void Studio::on(const ui::ChooseRegisterWay& request) { registrar_.choose(reques
 void Studio::on(const ui::PlaceCorner& request) { registrar_.placeCorner(request.corner, request.at); }
 void Studio::on(const ui::PlaceCross& request) { registrar_.placeCross(request.at); }
 void Studio::on(const ui::RemovePair& request) { registrar_.removePair(request.pair); }
+void Studio::on(const ui::ShowRegisterPicture& request) { registrar_.showPicture(request.what); }
+void Studio::on(const ui::SetBoard& request) { registrar_.setBoard(request.board); }
+void Studio::on(const ui::RemovePose& request) { registrar_.removePose(request.pose); }
+void Studio::on(const ui::PlaceTape& request) { registrar_.placeTape(request.at); }
+void Studio::on(const ui::TapeSays& request) { registrar_.tapeSays(request.length); }
 
 void Studio::registerCamera() {
     if (registrar_.view()) return;
@@ -87,32 +122,43 @@ void Studio::registerCamera() {
     const Document& document = editor_.document();
     const Dioptre rest = document.wearer.camera ? Dioptre() : restPower(eyeOptics(document.wearer));
     cameraBefore_ = camera_.live();
+    registered_ = false;
     bump_.reset();
     registrar_.open(document.rig, rest, usualCamera(document.rig, core_));
 }
 
 void Studio::writeRegistration(const Registrar::ToWrite& found) {
     Rig rig = editor_.document().rig;
-    if (rig.projector != found.registration->projector)
+    if (found.registration && rig.projector != found.registration->projector)
         return say("The rig's projector was changed since: register the camera again.", ui::Tone::warning);
-    rig.registration = found.registration;
+    if (found.registration) rig.registration = found.registration;
+    if (found.calibration) rig.calibration = found.calibration;
     using When = ui::EditRequest::When;
-    if (const auto done = editor_.handle({When::preview, SetRig{std::move(rig)}}); !done)
+    if (const auto done = editor_.handle({When::preview, SetRig{rig}}); !done)
         return say(done.error().what, ui::Tone::warning);
     if (!found.picture.empty()) {
         Scene scene;
         scene.picture = Box(devices::asPicture({rgbOf(found.picture), {}, 0, 0.0}));
         scene.source = found.registration->camera.device;
         scene.scale = {focalPixels(scene.size().width, kDefaultFieldOfView), PixelScale::Source::assumed};
-        if (const auto done = editor_.handle({When::preview, SetScene{carriedOver(std::move(scene))}}); !done)
+        scene = carriedOver(std::move(scene));
+        if (found.depth) {
+            scene.scale = {found.depth->camera.fx, PixelScale::Source::calibrated};
+            scene.measured = found.depth;
+        }
+        if (const auto done = editor_.handle({When::preview, SetScene{std::move(scene)}}); !done)
             say(done.error().what, ui::Tone::warning);
     }
-    editor_.commitGesture("Register camera");
-    registrar_.accepted();
+    editor_.commitGesture(found.registration ? "Register camera" : "Calibrate camera and projector");
+    registered_ = registered_ || static_cast<bool>(found.registration);
+    spdlog::info("{} went into the rig", found.registration ? "a registration" : "a calibration");
+    registrar_.accepted(rig);
 }
 
 void Studio::tendRegistering() {
+    const bool worked = works(registrar_.view());
     if (registrar_.collect()) quietFrames_ = 0;
+    if (worked && registrar_.view() && !works(registrar_.view())) logOutcome(*registrar_.view());
     if (const auto found = registrar_.toWrite()) writeRegistration(*found);
     const std::string wanted = registrar_.wantsCamera();
     if (wanted == registeringCamera_) return;
@@ -120,8 +166,9 @@ void Studio::tendRegistering() {
     if (!wanted.empty()) return camera_.openLive(wanted);
     if (registrar_.view()) return;
     if (cameraBefore_) return;
-    camera_.close();
     pictures_.hideLive();
+    if (!registered_) return camera_.close();
+    if (camera_.live()) camera_.toggleLive();
 }
 
 }  // namespace ilf::app

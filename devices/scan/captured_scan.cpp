@@ -28,8 +28,13 @@ int bitsOf(const std::vector<Pattern>& patterns, Pattern::Kind kind) {
 
 Result<CapturedScan> capturedScan(CameraSource& camera, PatternShow& show, const ScanWish& wish, const ScanWatch& watch,
                                   const std::stop_token& stop, const AfterScan& then) {
-    const SafeAtTheEnd safe{show};
     PatternCamera taker(camera, show, wish, watch, stop);
+    return capturedScan(taker, camera, show, then);
+}
+
+Result<CapturedScan> capturedScan(PatternCamera& taker, CameraSource& camera, PatternShow& show,
+                                  const AfterScan& then) {
+    const SafeAtTheEnd safe{show};
     if (const auto begun = taker.begin(); !begun) return tl::unexpected(begun.error());
     Scan scan;
     scan.projector = show.projector();

@@ -90,9 +90,13 @@ private:
     CapturedScan facts_;
 };
 
-/// The whole scan. Whatever happens, it ends in steady white light with the lens at rest. `then` is called before that,
-/// with all pictures taken, for what has to be shown besides; what it refuses refuses the scan.
+/// The whole scan, by a `taker` of this camera that has not begun. Whatever happens, it ends in steady white light with
+/// the lens at rest. `then` is called before that, with all pictures taken, for what has to be shown besides; what it
+/// refuses refuses the scan.
 using AfterScan = std::function<Result<void>(PatternCamera&, const CapturedScan&)>;
+Result<CapturedScan> capturedScan(PatternCamera& taker, CameraSource& camera, PatternShow& show,
+                                  const AfterScan& then = {});
+/// With a PatternCamera of its own. The one above leaves the caller what was seen until a refusal.
 Result<CapturedScan> capturedScan(CameraSource& camera, PatternShow& show, const ScanWish& wish, const ScanWatch& watch,
                                   const std::stop_token& stop, const AfterScan& then = {});
 

@@ -71,6 +71,7 @@ struct Desk {
         for (const ui::Request& request : requests) {
             if (const auto* way = std::get_if<ui::ChooseRegisterWay>(&request)) registrar.choose(way->way);
             if (const auto* gone = std::get_if<ui::RemovePair>(&request)) registrar.removePair(gone->pair);
+            if (const auto* shown = std::get_if<ui::ShowRegisterPicture>(&request)) registrar.showPicture(shown->what);
             const auto* asked = std::get_if<ui::Register>(&request);
             if (asked == nullptr) continue;
             camera = {};  // as the studio closes its port
@@ -80,22 +81,24 @@ struct Desk {
             if (asked->step == Step::cancel) registrar.cancel();
             if (asked->step == Step::marks) registrar.toggleMarks();
             if (asked->step == Step::another) registrar.anotherPlace();
-            if (asked->step == Step::picture) registrar.togglePicture();
-            if (asked->step == Step::accept) registrar.accept(asked->setup.asScene);
+            if (asked->step == Step::pose) registrar.scanPose();
+            if (asked->step == Step::tape) registrar.toggleTape();
+            if (asked->step == Step::accept) registrar.accept(asked->setup);
             if (asked->step == Step::close) registrar.close();
         }
         registrar.collect();
         if (registrar.wantsCamera().empty()) return;
         if (live) registrar.livePicture(live());
     }
-    void press(const char* button) {
+    void press(std::initializer_list<const char*> path) {
         desk.settle();
         for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
             if (std::string(window->Name).starts_with("###register/###registerNow"))
-                return done(desk.press(window->Name, {button}));
+                return done(desk.press(window->Name, path));
         }
         FAIL("the page is not open");
     }
+    void press(const char* button) { press({button}); }
     template <class Condition>
     bool until(Condition met) {
         const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(4);
@@ -142,7 +145,8 @@ TEST_CASE("registrar: a scan that finds a map can be accepted with the picture u
     REQUIRE(d.view().found);
     CHECK(d.view().decodedShare == doctest::Approx(0.93));
     CHECK(d.view().light->go);
-    CHECK(d.view().quality);
+    CHECK(d.view().shows == ui::RegisterPicture::quality);
+    CHECK_FALSE(d.view().hasDepth);
     CHECK_FALSE(d.registrar.toWrite());
     d.live = [] { return grey(kCamera, 180); };
     d.press("###registerAccept");
@@ -150,9 +154,12 @@ TEST_CASE("registrar: a scan that finds a map can be accepted with the picture u
     REQUIRE(d.until([&] { return (both = d.registrar.toWrite()).has_value(); }));
     CHECK(both->registration->points == 70000);
     CHECK(both->picture.at(5, 5, 1) == 180);
+    CHECK_FALSE(both->calibration);
+    CHECK_FALSE(both->depth);
     CHECK_FALSE(d.registrar.toWrite());
-    d.registrar.accepted();
+    d.registrar.accepted(d.rig);
     CHECK(d.view().state == Phase::accepted);
+    CHECK(d.view().shows == ui::RegisterPicture::live);
     CHECK_FALSE(d.view().found);
     d.press("###registerClose");
     CHECK_FALSE(d.registrar.view());
@@ -178,8 +185,10 @@ TEST_CASE("registrar: a bad scan shows its findings and quality, and there is no
     REQUIRE(d.view().findings.size() == 1);
     CHECK(d.view().trouble.empty());  // the finding says it
     CHECK(d.view().hasQuality);
-    d.press("###registerQuality");
-    CHECK_FALSE(d.view().quality);
+    d.press({"###registerShows", "Live"});
+    CHECK(d.view().shows == ui::RegisterPicture::live);
+    d.press({"###registerShows", "Quality"});
+    CHECK(d.view().shows == ui::RegisterPicture::quality);
 }
 
 TEST_CASE("registrar: cancelled at any time, closed at any time; a refusal is a sentence and the page stays") {
@@ -230,6 +239,126 @@ TEST_CASE("registrar: dragged corners give a registration or say why not") {
     d.registrar.placeCorner(0, {295, 215});  // crossed
     CHECK_FALSE(d.registrar.found());
     CHECK_FALSE(d.view().trouble.empty());
+}
+
+namespace {
+
+/// A calibration of the test's camera and raster, as a scan of some poses would have found it.
+Calibrated someCalibrated() {
+    Calibrated found;
+    found.calibration.camera = plainPinhole(kCamera, 500.0);
+    found.calibration.projector = plainPinhole({400, 300}, 600.0);
+    found.calibration.projectorFromCamera.translation = {-0.3, 0.0, 0.0};
+    found.calibration.poses = 2;
+    found.calibration.scale = "board";
+    found.poses.resize(2);
+    found.poses[0].camera_px = 0.08;
+    found.poses[1].used = false;
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("registrar: one pose is refused with the reason, more can be accepted, and a pose that is deleted is gone") {
+    const TemporaryDirectory folder;
+    RegisterParts parts;
+    std::vector<std::string> cameras;
+    parts.pose = [&](const ScanOrder& order, const Board& board, std::vector<BoardView> before, const std::string& name,
+                     const auto&, const auto&) {
+        cameras.push_back(order.camera);
+        PosesOutcome outcome;
+        outcome.scan = someOutcome(order);
+        outcome.scan->registration = {};
+        BoardView view;
+        view.name = name;
+        view.camera = kCamera;
+        view.projector = order.rig.projector;
+        for (const auto& corner : cornersOf(board)) {
+            view.inCamera.push_back({100.0 + 2000.0 * corner.x, 60.0 + 1000.0 * corner.y});
+            view.onProjector.push_back(Point<ProjectorFrame>{120.0 + 2000.0 * corner.x, 80.0 + 1000.0 * corner.y});
+        }
+        before.push_back(view);
+        // The first by what core says of it; of two the test makes its own calibration.
+        if (before.size() == 1) {
+            const PosesOutcome one = calibratedBy(before, board, "emulated");
+            outcome.refused = one.refused;
+            CHECK_FALSE(one.calibrated);
+        } else {
+            outcome.calibrated = Box(someCalibrated());
+        }
+        outcome.views = std::move(before);
+        return Result<PosesOutcome>(std::move(outcome));
+    };
+    Desk d(folder / "run", parts);
+    d.registrar.open(d.rig, {}, "emulated:binning=4");
+    d.registrar.choose(RegisterWay::calibration);
+    CHECK(d.registrar.wantsCamera() == "emulated:board=1,binning=4");
+    d.press("###registerPose");
+    REQUIRE(d.settled());
+    CHECK(d.view().calibration.poses.size() == 1);
+    CHECK(d.view().calibration.refused.find("pose") != std::string::npos);
+    CHECK_FALSE(d.view().calibration.found);
+    CHECK_FALSE(d.registrar.toWrite());
+    d.press("###registerPose");
+    REQUIRE(d.settled());
+    CHECK(cameras == std::vector<std::string>{"emulated:board=1,binning=4", "emulated:board=2,binning=4"});
+    REQUIRE(d.view().calibration.poses.size() == 2);
+    CHECK(d.view().calibration.poses[0].camera_px == doctest::Approx(0.08));
+    CHECK_FALSE(d.view().calibration.poses[1].used);
+    CHECK(d.view().calibration.corners.size() == 54);
+    d.press("###calibrationAccept");
+    const auto both = d.registrar.toWrite();
+    REQUIRE(both);
+    CHECK(both->calibration->scale == "board");
+    CHECK_FALSE(both->registration);
+    d.rig.calibration = both->calibration;
+    d.registrar.accepted(d.rig);
+    CHECK(d.view().calibrated);
+    d.registrar.choose(RegisterWay::calibration);
+    d.registrar.removePose(1);
+    REQUIRE(d.settled());
+    CHECK(d.view().calibration.poses.size() == 1);
+    CHECK_FALSE(d.view().calibration.found);
+    d.registrar.setBoard({7, 5, 30.0_mm});
+    CHECK(d.view().calibration.poses.empty());
+}
+
+TEST_CASE("registrar: depth that a scan measured goes along with the picture, and a tape sets its metres right") {
+    const TemporaryDirectory folder;
+    RegisterParts parts;
+    parts.scan = [](const ScanOrder& order, const auto&, const auto&) {
+        ScanOutcome outcome = someOutcome(order);
+        outcome.depth.emplace();
+        outcome.depth->depth.camera = order.rig.calibration->camera;
+        outcome.depth->depth.metres = Image<float>(kCamera, 1, std::vector<float>(320 * 240, 1.0F));
+        outcome.depth->depth.sigma = Image<float>(kCamera, 1, std::vector<float>(320 * 240, 0.002F));
+        return Result<ScanOutcome>(outcome);
+    };
+    Rig rig = someRig();
+    rig.calibration = Box(someCalibrated().calibration);
+    Desk d(folder / "run", parts, rig);
+    d.registrar.open(d.rig, {}, "emulated");
+    d.press("###registerScan");
+    REQUIRE(d.settled());
+    REQUIRE(d.view().found->depth);
+    CHECK(d.view().found->depth->nearest.si() == doctest::Approx(1.0));
+    CHECK(d.view().found->depth->sigma.si() == doctest::Approx(0.002));
+    d.press("###registerTape");
+    d.registrar.placeTape({110, 120});
+    CHECK(d.view().tape.length == 0.0_m);
+    d.registrar.placeTape({210, 120});
+    // 100 pixels at a focal length of 500, a metre away.
+    CHECK(d.view().tape.length.si() == doctest::Approx(0.2));
+    d.registrar.tapeSays(0.22_m);
+    CHECK(d.view().tape.length.si() == doctest::Approx(0.22));
+    CHECK(d.view().tape.scale == "tape");
+    CHECK(d.view().found->depth->farthest.si() == doctest::Approx(1.1));
+    d.press("###registerAccept");
+    std::optional<Registrar::ToWrite> all;
+    REQUIRE(d.until([&] { return (all = d.registrar.toWrite()).has_value(); }));
+    CHECK(static_cast<double>(all->depth->metres.at(7, 7)) == doctest::Approx(1.1));
+    CHECK(static_cast<double>(all->depth->sigma.at(7, 7)) == doctest::Approx(0.0022));
+    CHECK(all->calibration->projectorFromCamera.translation[0] == doctest::Approx(-0.33));
 }
 
 TEST_CASE("registrar: on a core with the emulated scene, from the scan by its buttons to pairs and back" *

@@ -58,7 +58,15 @@ struct Shown {
     RegisterView r;
 };
 
-RegisterFound someFound() { return {RegisterWay::scan, 0.21, 0.4, 700000, "emulated", ""}; }
+RegisterFound someFound() {
+    RegisterFound found;
+    found.rms_px = 0.21;
+    found.worst_px = 0.4;
+    found.points = 700000;
+    found.provenance = "emulated";
+    found.depth = RegisterDepth{0.9_m, 1.2_m, 2.0_mm, 0.97};
+    return found;
+}
 
 }  // namespace
 
@@ -79,9 +87,10 @@ TEST_CASE("register page: the card of Rig and a key open it, and not twice") {
 }
 
 TEST_CASE("register page: every way is at hand wherever the camera is free, and each has its buttons") {
-    for (const RegisterWay way : {RegisterWay::scan, RegisterWay::corners, RegisterWay::pairs, RegisterWay::board}) {
+    for (const RegisterWay way :
+         {RegisterWay::scan, RegisterWay::corners, RegisterWay::pairs, RegisterWay::board, RegisterWay::calibration}) {
         Shown shown(someView(way));
-        const Requests asked = shown.desk.press(column().c_str(), {"###registerWay", "Point pairs"});
+        const Requests asked = shown.desk.press(column().c_str(), {"###registerWay", "Pairs"});
         REQUIRE(first<ChooseRegisterWay>(asked) != nullptr);
         CHECK(first<ChooseRegisterWay>(asked)->way == RegisterWay::pairs);
         CHECK(shown.asks("###registerClose", Step::close));
@@ -90,6 +99,7 @@ TEST_CASE("register page: every way is at hand wherever the camera is free, and 
         CHECK(shown.asks("###registerMarks", Step::marks) ==
               (way == RegisterWay::corners || way == RegisterWay::pairs));
         CHECK(shown.asks("###registerBoard", Step::board) == (way == RegisterWay::board));
+        CHECK(shown.asks("###registerPose", Step::pose) == (way == RegisterWay::calibration));
         CHECK(shown.press("###registerAccept").empty());
         CHECK(shown.press("###registerCancel").empty());
     }
@@ -195,13 +205,63 @@ TEST_CASE("register page: findings, legend, light and refusals find room in ever
             view.findings = {{ScanFault::moved, ScanFinding::Weight::failure, "Something moved.", {10, 20, 300, 200}}};
             view.decodedShare = 0.42;
             view.trouble = "The map was made but does not hold.";
-            view.quality = view.hasQuality = true;
+            view.shows = RegisterPicture::quality;
+            view.hasQuality = view.hasDepth = true;
             Shown shown(view, window);
             const Rect area = registerPictureArea(shown.desk.areas(), 1.0);
             CHECK(area.x >= 0);
             CHECK(area.right() <= window.width);
             CHECK(area.bottom() <= window.height);
-            if (state == Phase::ready) CHECK(shown.asks("###registerQuality", Step::picture));
+            if (state != Phase::ready) continue;
+            const Requests asked = shown.desk.press(column().c_str(), {"###registerShows", "Depth"});
+            REQUIRE(first<ShowRegisterPicture>(asked) != nullptr);
+            CHECK(first<ShowRegisterPicture>(asked)->what == RegisterPicture::depth);
         }
     }
+}
+
+TEST_CASE(
+    "register page: a calibration shows poses with their residuals, what was found and why not, and is accepted") {
+    RegisterView view = someView(RegisterWay::calibration);
+    view.calibration.poses = {{"Pose 1", 54, 54, true, true, 0.08, 0.11}, {"Pose 2", 54, 40, true, false, 0.0, 0.0}};
+    view.calibration.refused = "One pose tells no focal length.";
+    Shown shown(view);
+    CHECK(shown.press("###calibrationAccept").empty());
+    const std::string name = column();
+    ImGuiWindow* window = ImGui::FindWindowByName(name.c_str());
+    REQUIRE(window != nullptr);
+    const int second = 1;
+    ImGui::ActivateItem(ImHashStr("###poseRemove", 0, ImHashData(&second, sizeof second, window->ID)));
+    Requests asked = shown.desk.frame();
+    for (const Request& request : shown.desk.frame())
+        asked.push_back(request);
+    REQUIRE(first<RemovePose>(asked) != nullptr);
+    CHECK(first<RemovePose>(asked)->pose == 1);
+    shown.r.calibration.found = Box(Calibrated());
+    shown.r.calibration.refused.clear();
+    CHECK(shown.asks("###calibrationAccept", Step::accept));
+    shown.r.state = Phase::accepted;
+    const Requests next = shown.press("###registerToScan");
+    REQUIRE(first<ChooseRegisterWay>(next) != nullptr);
+    CHECK(first<ChooseRegisterWay>(next)->way == RegisterWay::scan);
+}
+
+TEST_CASE("register page: clicks are a tape's ends while one is laid, and what it says scales the depth") {
+    RegisterView view = someView();
+    view.found = someFound();
+    Shown shown(view);
+    CHECK(first<PlaceTape>(shown.desk.click(shown.at(200, 100))) == nullptr);
+    CHECK(shown.asks("###registerTape", Step::tape));
+    shown.r.tape.placing = true;
+    const Requests asked = shown.desk.click(shown.at(200, 100));
+    REQUIRE(first<PlaceTape>(asked) != nullptr);
+    CHECK(first<PlaceTape>(asked)->at.x == doctest::Approx(200).epsilon(0.01));
+    shown.r.tape.ends = {{200, 100}, {300, 100}};
+    shown.r.tape.length = 0.412_m;
+    shown.desk.settle();
+    shown.press("###tapeSays");
+    shown.desk.settle();
+    const Requests typed = shown.desk.type("0.42");
+    REQUIRE(first<TapeSays>(typed) != nullptr);
+    CHECK(first<TapeSays>(typed)->length.si() == doctest::Approx(0.42));
 }

@@ -1,0 +1,21 @@
+// What a scan measured: its figures and picture for the registering page, and its metres set right by a tape measure.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/document/viewer_pose.h"
+#include "ui/register_view.h"
+
+namespace ilf::app {
+
+/// `decoded`: pixels that could have a depth.
+ui::RegisterDepth figuresOf(const MeasuredDepth& depth, int decoded);
+/// RGB: yellow near, violet far, grey without a depth.
+Image<std::uint8_t> depthPicture(const MeasuredDepth& depth);
+/// Straight through the room between what is seen at two places of the picture; none: there is no depth at one of them.
+std::optional<Metre> lengthBetween(const MeasuredDepth& depth, Point<CameraFrame> from, Point<CameraFrame> to);
+/// All lengths, and what is known of them, `factor` times as long.
+MeasuredDepth scaled(const MeasuredDepth& depth, double factor);
+
+}  // namespace ilf::app
