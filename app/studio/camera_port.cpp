@@ -1,5 +1,6 @@
 #include "app/studio/camera_port.h"
 
+#include "app/studio/grabbed_rig.h"
 #include "devices/camera/list.h"
 #include "devices/camera/video_file.h"
 
@@ -61,6 +62,11 @@ Result<Scene> CameraPort::grabbed() const {
     scene.source = state.id;
     scene.scale = {focalPixels(scene.size().width, kDefaultFieldOfView), PixelScale::Source::assumed};
     return scene;
+}
+
+Result<Rig> CameraPort::rigForFrame(const Rig& rig) const {
+    if (!camera_ || !frame_ || video_) return rig;
+    return rigForGrabbed(rig, camera_->state().mode, frame_->rgb.size());
 }
 
 Result<void> CameraPort::toggleLock() {

@@ -28,6 +28,10 @@ public:
     /// The newest frame as a scene, for "grab"; refused when there is none or the camera is frozen.
     Result<Scene> grabbed() const;
 
+    /// The rig for the newest frame, see `rigForGrabbed`. A video's pictures may be of any camera: the rig is as it
+    /// was.
+    Result<Rig> rigForFrame(const Rig& rig) const;
+
     Result<void> toggleLock();
     void toggleLive() { live_ = !live_ && camera_; }
     bool live() const { return live_; }

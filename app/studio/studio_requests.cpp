@@ -218,7 +218,15 @@ void Studio::on(const ui::SeekVideo& request) { camera_.seek(request.position); 
 void Studio::grab() {
     auto scene = camera_.grabbed();
     if (!scene) return say(scene.error().what, ui::Tone::warning);
-    setScene(*std::move(scene));
+    auto rig = camera_.rigForFrame(editor_.document().rig);
+    if (!rig) return say(rig.error().what, ui::Tone::warning);
+    if (rig->registration.same(editor_.document().rig.registration)) return setScene(*std::move(scene));
+    for (Edit one : {Edit{SetRig{*std::move(rig)}}, Edit{SetScene{carriedOver(*std::move(scene))}}}) {
+        if (const auto done = editor_.handle({ui::EditRequest::When::preview, std::move(one)}); !done)
+            say(done.error().what, ui::Tone::warning);
+    }
+    editor_.commitGesture("Grab");
+    say("The camera's mode has changed: the registration was converted to it.", ui::Tone::note);
 }
 
 void Studio::on(const ui::Recover& request) {

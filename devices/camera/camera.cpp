@@ -38,6 +38,7 @@ void Camera::run(std::stop_token stop) {
                 state_.open = true;
                 state_.name = (*source)->name();
                 state_.id = (*source)->id();
+                state_.mode = (*source)->mode();
                 state_.trouble.clear();
                 mayStandStill_ = (*source)->mayStandStill();
                 watch_.emplace(steadyNow());
@@ -74,6 +75,7 @@ Error Camera::play(CameraSource& source, std::stop_token stop) {
             const std::scoped_lock lock(mutex_);
             watch_->arrived(**frame);
             state_.position = (*frame)->position;
+            state_.mode = source.mode();
         }
         frames_.put(*std::move(*frame));
         onNews_();

@@ -21,6 +21,7 @@ struct CameraState {
     Second frameAge;      ///< of the newest picture that differs from the one before
     double position = 0.0;
     std::string name, id;
+    CameraMode mode;      ///< as of the newest picture
     std::string trouble;  ///< why there is no picture, as a sentence; empty when all is well
 };
 
