@@ -106,7 +106,7 @@ Result<DepthFile> decodeDepth(std::string_view bytes, const std::string& name, c
     if (!values) return tl::unexpected(values.error());
     DepthFile file;
     file.note = values->note;
-    const Size size = values->pixels.metres.size(), picture = reading.picture;
+    const Size size = values->pixels.metres.size(), picture = reading.picture == Size{} ? size : reading.picture;
     const auto add = [&](const std::string& note) { file.note += (file.note.empty() ? "" : " ") + note; };
     if (size != picture) {
         const std::string both = name + " has " + sizeWords(size) + " pixels and the picture " + sizeWords(picture);

@@ -13,7 +13,7 @@ namespace ilf::projects {
 
 /// How a file of depth is to be read.
 struct DepthReading {
-    Size picture;              ///< the depth must cover it, pixel by pixel
+    Size picture;              ///< the depth must cover it, pixel by pixel; 0 x 0: the file's own size
     double focalPixels = 0.0;  ///< of the picture, used where there are no intrinsics
     /// Of a file of whole numbers: the length of one step. Absent: guessed from its values, and the note says so.
     std::optional<Metre> step;

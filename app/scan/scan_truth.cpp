@@ -14,7 +14,8 @@ std::optional<ScanAgainstTruth> againstTruth(const ScanOrder& order, const ScanO
     const auto wish = devices::sceneWishFrom(words);
     if (!wish) return std::nullopt;
     const auto stage = devices::wishedStage(*wish, outcome.decoded.projector, wish->after == 0);
-    const devices::scene::SceneView view(stage);
+    if (!stage) return std::nullopt;
+    const devices::scene::SceneView view(*stage);
     const Image<float>& map = outcome.decoded.projectorOfCamera;
     ScanAgainstTruth found;
     double squares = 0.0;

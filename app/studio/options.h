@@ -18,7 +18,8 @@ struct StudioOptions {
     std::string frameTimes;      ///< JSON to write at the end: what each frame took
     std::optional<int> oscPort;  ///< poses are heard there; absent: nowhere
     std::string coreProgram;
-    RigChoice rig;  ///< instead of the document's, and what a core is started with
+    std::string emulatedCamera;  ///< words, see devices/emulated_scene/scene_wish.h; empty: as it was
+    RigChoice rig;               ///< instead of the document's, and what a core is started with
 };
 
 /// Opens the window and runs until it is closed; returns the exit code.

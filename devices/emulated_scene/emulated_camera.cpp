@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "devices/emulated_scene/built_in.h"
+#include "devices/emulated_scene/scene_file.h"
 #include "devices/link/runtime_directory.h"
 
 namespace ilf::devices {
@@ -39,6 +40,8 @@ void putDesktop(std::vector<float>& light, Size raster) {
 /// Of a wish, what changes where light goes.
 SceneWish geometryOf(const SceneWish& wish, bool faulty) {
     SceneWish alone;
+    alone.scene = wish.scene;
+    alone.scale = wish.scale;
     alone.board = wish.board;
     alone.binning = wish.binning;
     alone.roiX = wish.roiX;
@@ -66,11 +69,19 @@ Result<std::unique_ptr<CameraSource>> openEmulatedCamera(const std::string& id,
                                                          const std::filesystem::path& runtimeDirectory) {
     const auto wish = sceneWishFrom(std::string_view(id).substr(std::min(id.size(), kEmulatedCameraId.size() + 1)));
     if (!wish) return tl::unexpected(wish.error());
+    if (!wish->scene.empty()) {
+        if (const auto read = scene::sceneThings(wish->scene, wish->scale); !read) return tl::unexpected(read.error());
+    }
     return std::make_unique<EmulatedCamera>(runtimeDirectory, *wish);
 }
 
-scene::Stage wishedStage(const SceneWish& wish, Size raster, bool faulty) {
+Result<scene::Stage> wishedStage(const SceneWish& wish, Size raster, bool faulty) {
     scene::Stage stage = scene::builtInStage(raster, wish.board);
+    if (!wish.scene.empty() && wish.board == 0) {
+        auto things = scene::sceneThings(wish.scene, wish.scale);
+        if (!things) return tl::unexpected(things.error());
+        stage.things = *std::move(things);
+    }
     const Size part = wish.roi == Size{} ? stage.camera.size : wish.roi;
     stage.camera = scene::readOut(stage.camera, wish.roiX, wish.roiY, part, wish.binning);
     if (!faulty) return stage;
@@ -79,9 +90,18 @@ scene::Stage wishedStage(const SceneWish& wish, Size raster, bool faulty) {
     return stage;
 }
 
+scene::MarkerPath markerPathOf(const SceneWish& wish) {
+    return {wish.marker, wish.lap_s, wish.coveredFrom_s, wish.coveredTo_s};
+}
+
 EmulatedCamera::EmulatedCamera(std::filesystem::path runtimeDirectory, SceneWish wish)
     : directory_(runtimeDirectory), wish_(wish), shown_(std::move(runtimeDirectory)) {
-    lookForWishes();
+    if (wish_ == SceneWish{}) {
+        lookForWishes();
+    } else {  // words of its own count for more than a wish that was there before it
+        std::error_code none;
+        wishedAt_ = std::filesystem::last_write_time(sceneWishFile(directory_), none);
+    }
 }
 
 void EmulatedCamera::lookForWishes() {
@@ -95,10 +115,12 @@ void EmulatedCamera::lookForWishes() {
     sinceWish_ = 0;
 }
 
-bool EmulatedCamera::arrange(Size raster, bool faulty) {
+Result<bool> EmulatedCamera::arrange(Size raster, bool faulty) {
     const SceneWish wanted = geometryOf(wish_, faulty);
     if (transport_ && arranged_ == wanted && transport_->stage().projector.size == raster) return true;
-    auto transport = std::make_shared<scene::LightTransport>(wishedStage(wanted, raster, true), stop_);
+    auto stage = wishedStage(wanted, raster, true);
+    if (!stage) return tl::unexpected(stage.error());
+    auto transport = std::make_shared<scene::LightTransport>(*std::move(stage), stop_);
     if (stop_.stop_requested()) return false;
     transport_ = std::move(transport);
     arranged_ = wanted;
@@ -146,10 +168,20 @@ Result<std::optional<Frame>> EmulatedCamera::read() {
     lookForWishes();
     const bool faulty = std::cmp_greater_equal(sinceWish_++, wish_.after);
     ShownLight shown = shown_.during(sensor_.exposure);
-    if (!arrange(shown.raster, faulty)) return std::nullopt;
+    const auto arranged = arrange(shown.raster, faulty);
+    if (!arranged) return tl::unexpected(arranged.error());
+    if (!*arranged) return std::nullopt;
     if (faulty && wish_.wrongScreen && shown.there) putDesktop(shown.light, shown.raster);
     if (shown.there) throughLens(shown.light);
     transport_->shine(shown.light, wish_.ambientLux, lux_);
+    if (wish_.marker >= 0) {
+        const Second exposed = steadyNow();
+        if (!began_) began_ = exposed;
+        const double t = (exposed - *began_).si();
+        tint_ = transport_->tint();
+        putMarker(transport_->stage(), markerPathOf(wish_), t - sensor_.exposure.si(), t, shown.light, wish_.ambientLux,
+                  lux_, tint_);
+    }
     if (faulty && (wish_.saturated || wish_.dark)) {
         const float aperture = wish_.saturated ? kWideOpen : kNearlyClosed;
         for (float& lux : lux_)
@@ -159,7 +191,8 @@ Result<std::optional<Frame>> EmulatedCamera::read() {
     settings.seed = static_cast<std::uint64_t>(wish_.seed) * 1000003U + number_;
     settings.noisy = !wish_.quiet;
     settings.gain = autoGain_;
-    Image<std::uint8_t> picture = exposed(*transport_, lux_, settings);
+    const auto& tint = wish_.marker >= 0 ? tint_ : transport_->tint();
+    Image<std::uint8_t> picture = exposed(transport_->stage().camera.size, lux_, tint, settings);
     adapt(picture);
     if (faulty && wish_.frozen && !late_.empty()) picture = late_.back();
     late_.push_back(picture);

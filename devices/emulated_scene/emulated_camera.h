@@ -8,6 +8,7 @@
 
 #include "devices/camera/camera_source.h"
 #include "devices/emulated_scene/light_transport.h"
+#include "devices/emulated_scene/moving_marker.h"
 #include "devices/emulated_scene/scene_wish.h"
 #include "devices/emulated_scene/sensor.h"
 #include "devices/emulated_scene/shown_light.h"
@@ -16,13 +17,16 @@ namespace ilf::devices {
 
 /// "emulated" or "emulated:WORDS", see SceneWish.
 bool isEmulatedCamera(const std::string& id);
-/// At the usual runtime directory, or at another. Refused: words that are none.
+/// At the usual runtime directory, or at another. Refused: words that are none, a scene's file that cannot be used.
 Result<std::unique_ptr<CameraSource>> openEmulatedCamera(const std::string& id);
 Result<std::unique_ptr<CameraSource>> openEmulatedCamera(const std::string& id,
                                                          const std::filesystem::path& runtimeDirectory);
 
-/// The scene as wished for, with its camera cut out of its sensor, moved and reached into as it is wished.
-scene::Stage wishedStage(const SceneWish& wish, Size raster, bool faulty = true);
+/// The scene as wished for, with its camera cut out of its sensor, moved and reached into as it is wished. Refused
+/// where its file is.
+Result<scene::Stage> wishedStage(const SceneWish& wish, Size raster, bool faulty = true);
+/// Of a wish that has a marker.
+scene::MarkerPath markerPathOf(const SceneWish& wish);
 
 /// Up to 20 frames a second, in real time. Nothing of it is measured: every name says "emulated".
 class EmulatedCamera : public CameraSource {
@@ -44,7 +48,7 @@ public:
 private:
     void lookForWishes();
     /// False: it was told to stop meanwhile.
-    bool arrange(Size raster, bool faulty);
+    Result<bool> arrange(Size raster, bool faulty);
     void throughLens(std::vector<float>& light) const;
     void adapt(const Image<std::uint8_t>& picture);
 
@@ -60,6 +64,8 @@ private:
     bool locked_ = false;
     std::deque<Image<std::uint8_t>> late_;  ///< pictures that wait for their turn
     std::vector<float> lux_;
+    std::vector<std::uint8_t> tint_;  ///< of it, once a marker is in view
+    std::optional<Second> began_;     ///< the marker's way
     std::uint64_t number_ = 0, sinceWish_ = 0;
     Second due_;
 };

@@ -1,5 +1,6 @@
 #include "devices/emulated_scene/scene_wish.h"
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <functional>
@@ -8,12 +9,14 @@
 
 #include "core/base/as_text.h"
 #include "devices/emulated_scene/built_in.h"
+#include "devices/emulated_scene/moving_marker.h"
 
 namespace ilf::devices {
 namespace {
 
-constexpr const char* kWords = "board, binning, roi, ambient, delay, bump, turn, hand, saturated, dark, wrong-screen, "
-                               "frozen, after, quiet and seed";
+constexpr const char* kWords =
+    "scene, scale, board, binning, roi, ambient, delay, bump, turn, hand, marker, lap, cover, saturated, dark, "
+    "wrong-screen, frozen, after, quiet and seed";
 
 bool number(std::string_view text, double low, double high, double& out) {
     double value = 0.0;
@@ -44,15 +47,43 @@ bool region(std::string_view text, SceneWish& wish) {
     return wish.roiX + wish.roi.width <= sensor.width && wish.roiY + wish.roi.height <= sensor.height;
 }
 
+/// As it is, or in double quotes. One line holds a whole wish, and a quote ends a name.
+bool fileName(std::string_view text, std::string& name) {
+    if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+    if (text.empty() || text.find_first_of("\"\n") != std::string_view::npos) return false;
+    name = text;
+    return true;
+}
+
+/// Takes the first word off; commas between double quotes separate nothing.
+std::string_view nextWord(std::string_view& words) {
+    bool quoted = false;
+    std::size_t end = 0;
+    for (; end < words.size() && (quoted || words[end] != ','); ++end)
+        quoted = quoted != (words[end] == '"');
+    const auto word = words.substr(0, end);
+    words.remove_prefix(std::min(words.size(), end + 1));
+    return word;
+}
+
 bool took(SceneWish& wish, std::string_view name, std::string_view value) {
     const std::map<std::string_view, bool*> flags{{"hand", &wish.hand},     {"saturated", &wish.saturated},
                                                   {"dark", &wish.dark},     {"wrong-screen", &wish.wrongScreen},
                                                   {"frozen", &wish.frozen}, {"quiet", &wish.quiet}};
     if (const auto flag = flags.find(name); flag != flags.end()) return *flag->second = value.empty();
+    if (name == "scene") return fileName(value, wish.scene);
+    if (name == "scale") return number(value, 1e-6, 1e6, wish.scale);
     if (name == "board") return whole(value, 0, scene::kBoardPoses, wish.board);
     if (name == "binning") return whole(value, 1, 8, wish.binning);
     if (name == "roi") return region(value, wish);
     if (name == "ambient") return number(value, 0.0, 100000.0, wish.ambientLux);
+    if (name == "marker") return whole(value, 0, scene::kMarkers - 1, wish.marker);
+    if (name == "lap") return number(value, 0.0, 3600.0, wish.lap_s);
+    if (name == "cover") {
+        const auto colon = value.find(':');
+        return colon != std::string_view::npos && number(value.substr(0, colon), 0.0, 1e6, wish.coveredFrom_s) &&
+               number(value.substr(colon + 1), wish.coveredFrom_s, 1e6, wish.coveredTo_s);
+    }
     if (name == "delay") return whole(value, 0, 30, wish.delay);
     if (name == "bump") return number(value, -1000.0, 1000.0, wish.bump_mm);
     if (name == "turn") return number(value, -90.0, 90.0, wish.turn_deg);
@@ -66,9 +97,7 @@ bool took(SceneWish& wish, std::string_view name, std::string_view value) {
 Result<SceneWish> sceneWishFrom(std::string_view words) {
     SceneWish wish;
     while (!words.empty()) {
-        const auto comma = words.find(',');
-        const std::string_view word = words.substr(0, comma);
-        words.remove_prefix(comma == std::string_view::npos ? words.size() : comma + 1);
+        const std::string_view word = nextWord(words);
         const auto equals = word.find('=');
         const auto value = equals == std::string_view::npos ? std::string_view() : word.substr(equals + 1);
         if (!took(wish, word.substr(0, equals), value)) {
@@ -86,6 +115,11 @@ std::string wordsOf(const SceneWish& wish) {
     const auto addNumber = [&](const char* name, double value, double usually) {
         if (value != usually) add(name + asText("=%.17g", value));
     };
+    if (!wish.scene.empty()) {
+        const bool plain = wish.scene.find(',') == std::string::npos;
+        add("scene=" + (plain ? wish.scene : '"' + wish.scene + '"'));
+    }
+    addNumber("scale", wish.scale, usual.scale);
     addNumber("board", wish.board, usual.board);
     addNumber("binning", wish.binning, usual.binning);
     if (wish.roi != Size{})
@@ -96,6 +130,10 @@ std::string wordsOf(const SceneWish& wish) {
     addNumber("bump", wish.bump_mm, usual.bump_mm);
     addNumber("turn", wish.turn_deg, usual.turn_deg);
     if (wish.hand) add("hand");
+    addNumber("marker", wish.marker, usual.marker);
+    addNumber("lap", wish.lap_s, usual.lap_s);
+    if (wish.coveredTo_s > wish.coveredFrom_s)
+        add("cover=" + asText("%.17g", wish.coveredFrom_s) + ":" + asText("%.17g", wish.coveredTo_s));
     if (wish.saturated) add("saturated");
     if (wish.dark) add("dark");
     if (wish.wrongScreen) add("wrong-screen");
@@ -115,7 +153,9 @@ Result<void> saveSceneWish(const std::filesystem::path& runtimeDirectory, const 
     auto beside = wanted;
     beside += ".new";
     std::ofstream file(beside, std::ios::trunc);
-    file << wordsOf(wish) << '\n';
+    SceneWish wished = wish;  // who reads it may have been started in another folder
+    if (!wish.scene.empty()) wished.scene = std::filesystem::absolute(wish.scene).string();
+    file << wordsOf(wished) << '\n';
     file.close();
     std::error_code error;
     if (file) std::filesystem::rename(beside, wanted, error);

@@ -40,7 +40,11 @@ std::uint64_t mixed(std::uint64_t z) {
 
 Image<std::uint8_t> exposed(const LightTransport& transport, const std::vector<float>& light,
                             const SensorSettings& settings) {
-    const Size size = transport.stage().camera.size;
+    return exposed(transport.stage().camera.size, light, transport.tint(), settings);
+}
+
+Image<std::uint8_t> exposed(Size size, const std::vector<float>& light, const std::vector<std::uint8_t>& tint,
+                            const SensorSettings& settings) {
     const auto electronsPerLux = static_cast<float>(settings.perLuxSecond * settings.exposure.si());
     const auto share = static_cast<float>(settings.gain / settings.fullWell);
     std::vector<std::uint8_t> curve(kCurve);
@@ -49,7 +53,6 @@ Image<std::uint8_t> exposed(const LightTransport& transport, const std::vector<f
         curve[i] = static_cast<std::uint8_t>(std::lround(255.0 * std::pow(signal, 1.0 / settings.gamma)));
     }
     const auto& normal = bell();
-    const auto& tint = transport.tint();
     const float read2 = static_cast<float>(settings.readNoise * settings.readNoise),
                 noisy = settings.noisy ? 1.0F : 0.0F;
     std::vector<std::uint8_t> rgb(3 * light.size());

@@ -24,5 +24,8 @@ struct SensorSettings {
 /// RGB picture of what `LightTransport::shine` gave, of that transport.
 Image<std::uint8_t> exposed(const LightTransport& transport, const std::vector<float>& light,
                             const SensorSettings& settings);
+/// Of any light; `tint` as LightTransport::tint.
+Image<std::uint8_t> exposed(Size size, const std::vector<float>& light, const std::vector<std::uint8_t>& tint,
+                            const SensorSettings& settings);
 
 }  // namespace ilf::devices::scene

@@ -82,7 +82,7 @@ public:
             SceneWish wish;
             wish.binning = 8;
             wish.bump_mm = bump;
-            return std::make_unique<scene::LightTransport>(wishedStage(wish, kRaster));
+            return std::make_unique<scene::LightTransport>(wishedStage(wish, kRaster).value());
         };
         static const auto still = made(0.0), bumped = made(6.0);
         return moved ? *bumped : *still;
