@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "app/emulated_scenes.h"
 #include "app/exit_code.h"
 #include "app/headless/calibrate_command.h"
 #include "app/headless/decode_scan_command.h"
@@ -16,6 +17,7 @@
 #include "app/headless/run_command.h"
 #include "app/headless/scan_command.h"
 #include "app/headless/seams_command.h"
+#include "app/headless/track_command.h"
 #include "app/headless/validate_command.h"
 #include "app/studio/options.h"
 #include "devices/link/start_core.h"
@@ -345,8 +347,9 @@ void addScan(CLI::App& app, ScanOptions& options) {
     scan->footer(
         "Ends in steady white light. The map is written only when stripes shown anew confirm it. The camera\n"
         "\"emulated\" sees a desk in the light of simulated or emulated devices; after a colon it takes words:\n"
-        "board=N, binning=N, roi=X:Y:W:H, ambient=LUX, delay=FRAMES, bump=MM, turn=DEGREES, hand, saturated,\n"
-        "dark, wrong-screen, frozen, after=FRAMES, quiet, seed=N, with commas between them.");
+        "scene=FILE (glTF on the desk, or depth as seen by the camera: EXR, PNG, PFM; a name with commas in double\n"
+        "quotes), scale=FACTOR, board=N, binning=N, roi=X:Y:W:H, ambient=LUX, delay=FRAMES, bump=MM, turn=DEGREES,\n"
+        "hand, saturated, dark, wrong-screen, frozen, after=FRAMES, quiet, seed=N, with commas between them.");
     addRigChoice(*scan, options.rig);
     scan->add_option("--camera", options.camera, "Camera's id (see --list-devices), or emulated:WORDS");
     scan->add_option("-o,--out", options.out, "Map to write: .yml, .yml.gz or .exr")->required();
@@ -356,6 +359,40 @@ void addScan(CLI::App& app, ScanOptions& options) {
         ->check(CLI::Range(0, 60));
     scan->add_flag("--anyway", options.anyway, "Also where the room is too bright");
     scan->add_flag("--json", options.json, "As JSON");
+}
+
+void addTrack(CLI::App& app, TrackOptions& options) {
+    auto* track =
+        app.add_subcommand("track", "Where regions are that follow a marker or a flat thing, picture by picture");
+    track->footer(
+        "SOURCE is a folder of pictures, a video file, or emulated:marker=7,lap=4 (also cover=2:3.5, hand, binning=2,\n"
+        "ambient=200, quiet, seed=N), whose truth is known: then errors are said, of what was seen and of where its\n"
+        "light falls. Lines: state (following, holding, fading, lost), confidence, fade (0: its own look, 1: its safe\n"
+        "one), the target's middle and the homography from where the region was painted. Exit codes: 0 done, 1 not "
+        "usable.");
+    track->add_option("SOURCE", options.source, "Pictures")->required();
+    auto* project =
+        track->add_option("--project", options.project, "Whose regions follow something, in its own picture");
+    auto* marker = track->add_option("--marker", options.marker,
+                                     "7 (AprilTag 36h11) or 6X6_250:7, as it lies in the first picture");
+    auto* patch = track->add_option("--patch", options.patch, "X0,Y0,X1,Y1: a flat thing in the first picture");
+    marker->excludes(project)->excludes(patch);
+    patch->excludes(project);
+    track->add_option("--when-lost", options.whenLost, "Its safe look")
+        ->check(CLI::IsMember({"blur", "neutral", "focus"}))
+        ->capture_default_str();
+    track->add_option("--rate", options.rate_Hz, "Pictures a second, of a folder and the emulated scene")
+        ->check(CLI::Range(1.0, 1000.0))
+        ->capture_default_str();
+    track->add_option("--seconds", options.seconds, "Of the emulated scene")
+        ->check(CLI::Range(0.0, 600.0))
+        ->capture_default_str();
+    track->add_option("--ahead", options.ahead_ms, "Milliseconds from a picture's arrival to its light")
+        ->check(CLI::Range(0.0, 100.0))
+        ->capture_default_str();
+    track->add_option("--hold", options.hold_ms, "Milliseconds it stays when lost")->check(CLI::Range(0.0, 60000.0));
+    track->add_option("--fade", options.fade_ms, "Milliseconds it then fades")->check(CLI::Range(0.0, 60000.0));
+    track->add_flag("--json", options.json, "As JSON");
 }
 
 void addStudio(CLI::App& app, StudioOptions& options) {
@@ -369,6 +406,12 @@ void addStudio(CLI::App& app, StudioOptions& options) {
     app.add_option("--frame-times", options.frameTimes, "Write what each frame took as JSON when the window closes")
         ->group("");
     addRig(app, options.rig);
+    app.add_option("--osc-port", options.oscPort,
+                   "Hear poses by OSC on this UDP port, from this machine only: /pose/N x y [z rotation confidence]")
+        ->check(CLI::Range(0, 65535));
+    app.add_option(
+        "--emulated-camera", options.emulatedCamera,
+        "What the emulated camera sees: the words of scan's --camera emulated:WORDS, such as scene=FILE.glb");
     app.add_option("--view", options.view, "Tab to start with: scene, perceived, light or compare")
         ->check(CLI::IsMember({"scene", "perceived", "light", "compare"}));
 }
@@ -376,6 +419,7 @@ void addStudio(CLI::App& app, StudioOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    readEmulatedScenes();
     CLI::App app("Paints focus and blur onto the real world: a studio for IlluminatedFocus.", "illuminatedfocus");
     app.footer(kFooter);
     app.set_version_flag("--version", std::string("illuminatedfocus ") + ilf::kVersion);
@@ -417,6 +461,8 @@ int main(int argc, char** argv) {
     addGltf(app, gltf);
     ScanOptions scan;
     addScan(app, scan);
+    TrackOptions track;
+    addTrack(app, track);
     RigChoice validatedRig;
     auto* validate =
         app.add_subcommand("validate", "Opens, plans and compiles a project and says what is wrong with it");
@@ -443,6 +489,7 @@ int main(int argc, char** argv) {
         if (app.got_subcommand("run")) return runCommand(run);
         if (app.got_subcommand("seams")) return seamsCommand(seams);
         if (app.got_subcommand("scan")) return scanCommand(scan);
+        if (app.got_subcommand("track")) return trackCommand(track);
         if (app.got_subcommand("optics")) {
             const auto* optics = app.get_subcommand("optics");
             if (optics->got_subcommand("eval")) return opticsEvalCommand(opticsEval);
@@ -458,6 +505,10 @@ int main(int argc, char** argv) {
                                                                       : gltfDepthCommand(gltf.depth);
         if (app.got_subcommand("evaluate")) return evaluateCommand(evaluation);
         if (app.got_subcommand("validate")) return validateCommand(validated, validatedRig);
+        if (const auto wished = wishedOfCamera(studio.emulatedCamera); !wished) {
+            std::cerr << wished.error().what << '\n';
+            return kFailed;
+        }
         return runStudio(studio);
     } catch (const std::exception& e) {  // a library threw where nobody expected it
         std::cerr << "illuminatedfocus: stopped by an unexpected failure: " << e.what() << '\n';
