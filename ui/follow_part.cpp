@@ -228,8 +228,7 @@ void followPart(Panel& p, const Region& region) {
         text(words.words, ink);
         if (!words.help.empty()) wrapped(words.help, colour::dim, Font::small);
         if (p.view.follow.behind)
-            wrapped("What is on show stands still: there are edits that were not put on show (TAKE).", colour::warn,
-                    Font::small);
+            wrapped("What is on show follows as it was put there; edits wait for TAKE.", colour::dim, Font::small);
         if (const auto* marker = std::get_if<MarkerTarget>(&region.follow->target)) markerRows(p, region, *marker);
         if (const auto* target = std::get_if<PlanarTarget>(&region.follow->target)) planarRows(p, region, *target);
         if (const auto* stream = std::get_if<StreamTarget>(&region.follow->target)) streamRows(p, region, *stream);

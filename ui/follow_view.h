@@ -24,7 +24,7 @@ struct FollowView {
     bool looking = false;              ///< markers are being looked for
     bool looked = false;               ///< `markers` is what was found last
     std::vector<MarkerFound> markers;
-    bool behind = false;  ///< what is on show does not follow: there are edits that were not put on show
+    bool behind = false;  ///< what follows in the light is as it was put on show: edits wait
 };
 
 }  // namespace ilf::ui

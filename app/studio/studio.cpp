@@ -304,6 +304,7 @@ void Studio::postJob() {
     job.document = editor_.document();
     job.moves = tracked_.moves;
     postedMoves_ = tracked_.serial;
+    if (followsBehind()) job.onShow = onShow_;
     if (moved) job.seen_ns = std::llround(1e9 * tracked_.arrived.si());
     job.dragging = postedDragging_ = dragging;
     job.eyes = {wants.perceivedLeft, wants.perceivedRight};
@@ -345,6 +346,7 @@ void Studio::forgetTake() {
 }
 
 void Studio::sendIfDue() {
+    sendBehind();
     if (!done_.compiled) {
         if (takeSerial_ && done_.refusal && done_.serial >= *takeSerial_) {
             say("Nothing was put on show: " + done_.refusal->what, ui::Tone::error);
@@ -358,6 +360,7 @@ void Studio::sendIfDue() {
     if (taking) takeSerial_.reset();
     if (live) takenRevision_ = editor_.history().revision();
     ownShow_ = true;
+    onShow_ = done_.painted;
     sent_ = done_.compiled;
     sentHash_ = done_.hash;
     ++revision_;

@@ -96,7 +96,8 @@ private:
     void writeRegistration(const Registrar::ToWrite& found);
     void followRegions();  ///< tells the tracker what there is, and takes what it found
     ui::FollowView followView() const;
-    bool followsOnShow() const;     ///< what plays moves along with what is followed
+    bool followsOnShow() const;     ///< what is painted plays, and moves along with what is followed
+    bool followsBehind() const;     ///< what plays does so, while edits wait to be put on show
     const Document& shown() const;  ///< the document, with what follows where it is where the live picture is seen
     void lookForBump();
     void takeBump();
@@ -106,6 +107,7 @@ private:
     void take();
     void forgetTake();
     void sendIfDue();
+    void sendBehind();
     void save(const std::string& path);
     void grab();
     void edit(const Edit& edit);  ///< a whole gesture in one
@@ -161,6 +163,7 @@ private:
     std::size_t takenRevision_ = 0;  ///< History::revision at the last take
     bool liveTake_ = false;
     bool ownShow_ = false;  ///< what plays was put on show here
+    Document onShow_;       ///< and is of this, as it was painted
     bool closing_ = false;
     std::string title_;
     int quietFrames_ = 0;  ///< frames since anything happened: then the loop may wait

@@ -38,6 +38,20 @@ bool Studio::followsOnShow() const {
            editor_.history().revision() == takenRevision_;
 }
 
+bool Studio::followsBehind() const {
+    return ownShow_ && !liveTake_ && !tracked_.moves.empty() && core_.light == devices::LightMode::slotted &&
+           !followsOnShow();
+}
+
+void Studio::sendBehind() {
+    if (!followsBehind() || !done_.onShow || done_.onShowHash == sentHash_) return;
+    sent_ = done_.onShow;
+    sentHash_ = done_.onShowHash;
+    ++revision_;
+    if (done_.seen_ns) lightLag_.sent(revision_, *done_.seen_ns);
+    link_.send({sent_, revision_, devices::Why::live, takeHold_});
+}
+
 const Document& Studio::shown() const {
     const bool moved = camera_.live() && !tracked_.moves.empty() && !editor_.previewing() && done_.compiled &&
                        done_.serial == editor_.serial();
@@ -52,7 +66,7 @@ ui::FollowView Studio::followView() const {
     view.looking = lookingForMarkers_;
     view.looked = markers_.has_value();
     if (markers_) view.markers = *markers_;
-    view.behind = !tracked_.moves.empty() && ownShow_ && core_.light == devices::LightMode::slotted && !followsOnShow();
+    view.behind = followsBehind();
     return view;
 }
 

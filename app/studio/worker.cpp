@@ -15,6 +15,7 @@ void Worker::run(std::stop_token stop) {
         Done done;
         try {
             done = program(*job);
+            follow(*job, done);
         } catch (const std::exception& e) {  // a library threw where nobody expected it: say so, keep working
             done.refusal = Error{Fault::unsupported, std::string("The computation stopped: ") + e.what() +
                                                          ". What plays goes on; undo the last edit."};
@@ -22,12 +23,29 @@ void Worker::run(std::stop_token stop) {
         done.serial = job->serial;
         done.strokeAt = job->strokeAt;
         done.seen_ns = job->seen_ns;
+        done.painted = job->document;
         const auto compiled = done.compiled;
         done_.put(std::move(done));
         if (onNews_) onNews_();
         if (!compiled) continue;
         viewer_.post({job->serial, compiled, job->dragging, job->eyes, job->plain, job->seeing, job->cursor});
     }
+}
+
+void Worker::follow(const Job& job, Done& done) {
+    if (!job.onShow) return;
+    const Second light = lastShow_ ? meanLight(lastShow_->plan) : 0.0_s;
+    const Document document = showCompiler_.placed(*job.onShow, job.moves, light);
+    const auto input = planner_.input(document);
+    if (!input) return;
+    const Plan* before = lastShow_ ? &lastShow_->plan : nullptr;
+    const bool same = before != nullptr && before->input == *input;
+    const auto planned = same ? Result<Plan>(*before) : planner_.plan(*input, before, false);
+    if (!planned) return;  // what plays goes on
+    auto compiled = showCompiler_.compiled(*job.onShow, document, *planned, job.moves);
+    if (!compiled) return;
+    done.onShow = lastShow_ = *std::move(compiled);
+    done.onShowHash = contentHash(done.onShow->program);
 }
 
 Done Worker::program(const Job& job) {

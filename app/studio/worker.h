@@ -23,8 +23,10 @@ using Clock = std::chrono::steady_clock;
 struct Job {
     std::uint64_t serial = 0;  ///< Editor::serial of the document
     Document document;
-    std::vector<RegionMove> moves{};           ///< of regions that follow something: the program is of where they are
-    std::optional<std::int64_t> seen_ns{};     ///< when what made new moves was seen; see Latency
+    std::vector<RegionMove> moves{};        ///< of regions that follow something: the program is of where they are
+    std::optional<std::int64_t> seen_ns{};  ///< when what made new moves was seen; see Latency
+    /// What is on show, where that is not `document`: it must move along all the same.
+    std::optional<Document> onShow{};
     bool dragging = false;                     ///< a gesture is going on: the view may be coarse
     std::array<bool, 2> eyes{};                ///< perceived views that are on screen, left and right
     bool plain = false;                        ///< the plain view is on screen
@@ -41,7 +43,10 @@ struct Done {
     std::shared_ptr<const Compiled> compiled;  ///< of this serial, unless refused
     std::uint64_t hash = 0;                    ///< content of its program
     double plan_ms = 0.0, compile_ms = 0.0;
-    std::optional<std::int64_t> seen_ns{};  ///< of the job
+    std::optional<std::int64_t> seen_ns{};     ///< of the job
+    Document painted{};                        ///< the job's
+    std::shared_ptr<const Compiled> onShow{};  ///< of the job's, where it has one and that can be compiled
+    std::uint64_t onShowHash = 0;
 };
 
 class Worker {
@@ -57,6 +62,7 @@ public:
 private:
     void run(std::stop_token stop);
     Done program(const Job& job);
+    void follow(const Job& job, Done& done);
 
     Latest<Job> jobs_;
     Latest<Done> done_;
@@ -66,6 +72,8 @@ private:
     LensPlanner planner_;
     FollowingCompiler compiler_;
     std::shared_ptr<const Compiled> last_;
+    FollowingCompiler showCompiler_;
+    std::shared_ptr<const Compiled> lastShow_;
     std::shared_ptr<const Compiled> hashed_;
     std::uint64_t hash_ = 0;  ///< of hashed_
 
