@@ -3,6 +3,7 @@
 
 #include "core/document/edit.h"
 #include "core/optics/eye.h"
+#include "core/perceived/prediction.h"
 #include "core/perceived/seam_errors.h"
 #include "core/plan/plan.h"
 #include "tests/support/law.h"
@@ -106,6 +107,12 @@ TEST_CASE("uncertainty: seams are judged by what the registration left and by ho
     CHECK(scanned.registration.si() == doctest::Approx(onDesk));
     CHECK(scanned.coarseRegistration.si() == doctest::Approx(2.0 * onDesk));
     CHECK(scanned.nearer == SeamErrors{}.nearer);
+    // A region's prediction takes the residual at its own distance, or what it is told.
+    const RegionPrediction seen = predicted(*made, made->regions.front(), document);
+    CHECK(seen.registration == *knownRegistration(document, seen.distance));
+    PredictionErrors told;
+    told.registration = 2.0_mm;
+    CHECK(predicted(*made, made->regions.front(), document, told).registration == 2.0_mm);
 
     document = *edited(document, SetDistance{"desk", ConstantDistance{1.0_m, 0.3_m}});
     made = plan(planInput(document));
