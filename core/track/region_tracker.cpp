@@ -14,6 +14,9 @@ namespace {
 
 /// Looking for a flat thing everywhere takes 10 ms, and patience is half a second: so often is enough.
 constexpr Second kEverywhere = 90.0_ms;
+/// A camera that gives few pictures is silent, and forgets, only after so many of its pauses; a slower one is none.
+constexpr double kFewPictures = 2.5;
+constexpr Second kSlowest = 1.0_s;
 /// Around where a marker is predicted: half its size, for what hands do between frames, but so much at least.
 constexpr int kLeastMargin_px = 32;
 
@@ -52,12 +55,15 @@ std::string nameOf(const MarkerTarget& marker) { return marker.dictionary + " nu
 
 }  // namespace
 
-std::optional<Quad> RegionTracker::Followed::expected(Second at) const {
-    const auto& candidate = follower.candidate;
-    if (candidate && at - candidate->time <= FollowLimits{}.forget) return moved(from, candidate->motion);
-    if (!track.seen.empty() && at - track.seen.back().time <= kTrackMemory) return predicted(track, at);
+Second RegionTracker::patience(Second usual) const { return std::max(usual, kFewPictures * between_); }
+
+std::optional<Quad> RegionTracker::expected(const Followed& one, Second at) const {
+    const auto& candidate = one.follower.candidate;
+    const CornerTrack& track = one.track;
+    if (candidate && at - candidate->time <= patience(FollowLimits{}.forget)) return moved(one.from, candidate->motion);
+    if (!track.seen.empty() && at - track.seen.back().time <= patience(kTrackMemory)) return predicted(track, at);
     // Where it was painted, before it was ever seen.
-    return track.seen.empty() ? std::optional(from) : std::nullopt;
+    return track.seen.empty() ? std::optional(one.from) : std::nullopt;
 }
 
 bool RegionTracker::looks() const {
@@ -140,7 +146,9 @@ void RegionTracker::learn(Followed& one, const Document& document, const Region&
 
 void RegionTracker::step(Followed& one, const std::optional<Observation>& seen, Second now) {
     one.asked = now;
-    one.follower = followed(one.follower, one.follow, one.from, seen, now);
+    FollowLimits limits;
+    limits.forget = patience(limits.forget);
+    one.follower = followed(one.follower, one.follow, one.from, seen, now, limits);
     if (!seen || one.follower.state != FollowState::following || !(one.follower.motion == seen->motion)) return;
     one.track = tracked(std::move(one.track), seen->time, moved(one.from, seen->motion));
 }
@@ -148,6 +156,8 @@ void RegionTracker::step(Followed& one, const std::optional<Observation>& seen, 
 void RegionTracker::see(const Image<std::uint8_t>& grey, Second exposed, Second now) {
     camera_ = grey.size();
     if (camera_ != picture_) return pass(now);
+    if (lastLook_) between_ = 0.7 * between_ + 0.3 * std::clamp(now - *lastLook_, 0.0_s, kSlowest);
+    lastLook_ = now;
     seeMarkers(grey, exposed, now);
     for (Followed& one : all_) {
         if (one.pattern && one.trouble.empty()) seePlanar(one, grey, exposed, now);
@@ -168,7 +178,7 @@ void RegionTracker::seeMarkers(const Image<std::uint8_t>& grey, Second exposed, 
         const auto* marker = std::get_if<MarkerTarget>(&one.follow.target);
         if (marker == nullptr || !one.trouble.empty()) continue;
         Wanted want{&one, marker, {}, {}};
-        want.expected = one.expected(exposed);
+        want.expected = expected(one, exposed);
         if (want.expected) {
             const int margin = std::max(kLeastMargin_px, static_cast<int>(halfSize(*want.expected)));
             const auto found =
@@ -203,8 +213,8 @@ void RegionTracker::seeMarkers(const Image<std::uint8_t>& grey, Second exposed, 
 
 void RegionTracker::seePlanar(Followed& one, const Image<std::uint8_t>& grey, Second exposed, Second now) {
     std::optional<SeenPlanar> found;
-    if (const auto expected = one.expected(exposed)) {
-        const auto near = motionBetween(one.from, *expected);
+    if (const auto quad = expected(one, exposed)) {
+        const auto near = motionBetween(one.from, *quad);
         if (near) found = followPlanar(**one.pattern, grey, *near);
     }
     if (!found && due(one.soughtEverywhere, now)) found = findPlanar(**one.pattern, grey);
@@ -226,7 +236,7 @@ void RegionTracker::pass(Second now) {
     for (Followed& one : all_) {
         if (!one.trouble.empty()) continue;
         if (!one.asked) one.asked = now;
-        if (now - *one.asked < kSilence && one.follower.since) continue;
+        if (now - *one.asked < patience(kSilence) && one.follower.since) continue;
         const Second asked = *one.asked;
         step(one, std::nullopt, now);
         one.asked = asked;

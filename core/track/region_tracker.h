@@ -34,7 +34,7 @@ struct StreamPose {
 /// than a good registration knows (0.2 px rms and a feather of many pixels), and more than sightings scatter by once
 /// they are averaged, so that noise costs no compile and no light changes.
 inline constexpr double kStill_px = 0.25;
-/// A target of which neither picture nor pose came for so long counts as not seen.
+/// A target of which neither picture nor pose came for so long counts as not seen; longer where pictures come slowly.
 inline constexpr Second kSilence = 250.0_ms;
 
 struct FollowBy {
@@ -76,11 +76,12 @@ private:
         std::optional<Box<PlanarPattern>> pattern;
         Follower follower;
         CornerTrack track;
-        Quad now{}, speed{};                            ///< as last given
-        std::optional<Second> asked;                    ///< when it last could have been seen
-        std::optional<Second> soughtEverywhere;         ///< a flat target
-        std::optional<Quad> expected(Second at) const;  ///< where to look first
+        Quad now{}, speed{};                     ///< as last given
+        std::optional<Second> asked;             ///< when it last could have been seen
+        std::optional<Second> soughtEverywhere;  ///< a flat target
     };
+    std::optional<Quad> expected(const Followed& one, Second at) const;  ///< where to look first
+    Second patience(Second usual) const;                                 ///< or some pictures' time
     void learn(Followed& one, const Document& document, const Region& region);
     void step(Followed& one, const std::optional<Observation>& seen, Second now);
     void seeMarkers(const Image<std::uint8_t>& grey, Second exposed, Second now);
@@ -92,6 +93,8 @@ private:
     Size picture_;
     Size camera_;         ///< of what was seen last
     int wholeLooks_ = 0;  ///< for markers
+    std::optional<Second> lastLook_;
+    Second between_ = 33.3_ms;  ///< pictures
 };
 
 }  // namespace ilf

@@ -106,6 +106,17 @@ TEST_CASE("a target that stands still gives the same move again and again: no co
     }
 }
 
+TEST_CASE("three pictures a second are enough to follow by") {
+    Run run(following(marker(), Look::focus, pictureWith(squareAt(300, 150))));
+    for (int i = 0; i < 8; ++i) {
+        for (int k = 0; k < 6; ++k)
+            run.tracker.pass(run.now += 50.0_ms);
+        run.see(squareAt(300 + 3.0 * i, 150));
+    }
+    CHECK(run.state() == FollowState::following);
+    CHECK(farthestCorner(run.move().now, squareAt(321, 150)) < 0.25);
+}
+
 TEST_CASE("covered, guidance stays where it was, fades, and is neutral; uncovered it comes back") {
     Run run(following(marker(), Look::focus, pictureWith(squareAt(300, 150))));
     for (int i = 0; i < 4; ++i)
