@@ -35,8 +35,8 @@ void cameraRow(Panel& p, const RegisterView& r) {
              "saturated, wrong-screen, frozen, delay=20, ambient=2000, after=60,bump=3), or board=1.");
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
     ImGui::BeginDisabled(!free);
-    if (ImGui::InputTextWithHint("###registerScene", "a desk, nothing wrong", &p.state.registerScene,
-                                 ImGuiInputTextFlags_EnterReturnsTrue)) {
+    ImGui::InputTextWithHint("###registerScene", "a desk, nothing wrong", &p.state.registerScene);
+    if (ImGui::IsItemDeactivatedAfterEdit()) {  // by Enter, or by going elsewhere, such as to Scan
         const std::string& words = p.state.registerScene;
         p.requests.push_back(OpenCamera{words.empty() ? "emulated" : "emulated:" + words});
     }
