@@ -54,7 +54,7 @@ void lightLine(const RegisterView& r) {
                 (light.exposure_s > 0.0 ? asText("; exposure locked at %.1f ms.", 1e3 * light.exposure_s)
                                         : "; the camera's own exposure."),
             colour::dim, Font::small);
-    if (!light.go) wrapped(light.what, colour::fault);
+    if (!light.go && light.what != r.trouble) wrapped(light.what, colour::fault);
 }
 
 void findings(const RegisterView& r) {
