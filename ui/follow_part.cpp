@@ -181,10 +181,8 @@ FollowWords followWords(const FollowView& view, const Region& region) {
     if (!now->trouble.empty()) return {"cannot follow", Tone::warning, now->trouble};
     switch (now->state) {
     case FollowState::following:
-        return {"following, " + formatted(now->confidence, Unit::percent) + " sure, " +
-                    formatted(movedBy(*now), Unit::pixel) + " away",
-                Tone::note,
-                {}};
+        return {"following, " + formatted(now->confidence, Unit::percent) + " sure", Tone::note,
+                formatted(movedBy(*now), Unit::pixel) + " from where it was painted."};
     case FollowState::holding:
         return {"not seen: stays", Tone::warning, {}};
     case FollowState::fading:

@@ -89,7 +89,8 @@ TEST_CASE("follows: its state is said in words, with what would help") {
     CHECK(followWords(view, face).help.find("No live picture") != std::string::npos);
     view.camera = true;
     view.regions = {nowOf(FollowState::following)};
-    CHECK(followWords(view, face).words == "following, 93 % sure, 50 px away");
+    CHECK(followWords(view, face).words == "following, 93 % sure");
+    CHECK(followWords(view, face).help == "50 px from where it was painted.");
     view.regions = {nowOf(FollowState::holding)};
     CHECK(followWords(view, face).words == "not seen: stays");
     view.regions = {nowOf(FollowState::fading)};
