@@ -353,7 +353,7 @@ void addScan(CLI::App& app, ScanOptions& options) {
     addRigChoice(*scan, options.rig);
     scan->add_option("--camera", options.camera, "Camera's id (see --list-devices), or emulated:WORDS");
     scan->add_option("-o,--out", options.out, "Map to write: .yml, .yml.gz or .exr")->required();
-    scan->add_option("--keep", options.keep, "Folder for the pictures taken, for decode-scan");
+    scan->add_option("--keep", options.keep, "New folder for the pictures taken, for decode-scan");
     scan->add_option("--quality", options.quality, "PNG to write: what was decoded where, and why not");
     scan->add_option("--sweeps", options.sweeps, "Of exposure (0: as many as give good pictures)")
         ->check(CLI::Range(0, 60));

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -176,6 +177,11 @@ Result<void> reported(const ScanOptions& options, const ScanOrder& order, const 
 }  // namespace
 
 int scanCommand(const ScanOptions& options) {
+    std::error_code ignored;
+    if (!options.keep.empty() && std::filesystem::exists(options.keep, ignored)) {
+        return refused("scan", {Fault::cannotWrite,
+                                options.keep + " exists already: name a new folder for the pictures (--keep)."});
+    }
     const auto rig = withOptions(Rig{}, options.rig);
     if (!rig) return refused("scan", rig.error());
     const auto camera = cameraOf(options, *rig);

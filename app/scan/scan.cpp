@@ -3,11 +3,11 @@
 #include <cmath>
 #include <utility>
 
-#include "app/scan/kept_pictures.h"
 #include "app/words.h"
 #include "core/base/as_text.h"
 #include "devices/emulated_scene/emulated_camera.h"
 #include "devices/scan/core_show.h"
+#include "projects/scan_folder.h"
 
 namespace ilf::app {
 namespace {
@@ -49,7 +49,7 @@ Result<void> evaluate(const ScanOrder& order, const devices::PatternCamera& take
                       const devices::CapturedScan& captured, ScanOutcome& outcome) {
     outcome.captured = captured;
     if (!order.keep.empty()) {
-        if (const auto kept = keepPictures(order.keep, captured.scan); !kept) return kept;
+        if (const auto kept = projects::writeScan(order.keep, captured.scan); !kept) return kept;
     }
     taker.tell(ScanProgress::Step::check, 0, 3, "Decoding");
     auto decoded = decodedScan(captured.scan);
