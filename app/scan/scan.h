@@ -24,8 +24,8 @@ struct ScanOrder {
     std::filesystem::path runtimeDirectory;  ///< of the output core, which must run
     std::string camera;                      ///< id, as devices::listCameras gives it; "emulated:WORDS" goes as well
     devices::ScanWish wish;
-    std::filesystem::path
-        keep;  ///< folder for the pictures, as decode-scan reads them, that does not exist yet; empty: not kept
+    /// A folder that is not there yet for the pictures, as decode-scan reads them; empty: not kept.
+    std::filesystem::path keep;
 };
 
 /// What a scan found. Pictures and findings are there also where there is no registration.

@@ -10,13 +10,13 @@
 namespace ilf::app {
 
 enum class FrameStage : std::uint8_t {
-    input,   ///< events of the display taken in (not the wait for them)
-    marks,   ///< scene and region marks brought up to date in their textures
-    views,   ///< perceived views and light likewise
-    build,   ///< panels and canvas built
-    edit,    ///< requests carried out, work posted
-    draw,    ///< draw lists handed to GL
-    swap,    ///< the buffers swapped: with software GL, where the pixels are filled
+    input,  ///< events of the display taken in (not the wait for them)
+    marks,  ///< scene and region marks brought up to date in their textures
+    views,  ///< perceived views and light likewise
+    build,  ///< panels and canvas built
+    edit,   ///< requests carried out, work posted
+    draw,   ///< draw lists handed to GL
+    swap,   ///< the buffers swapped: with software GL, where the pixels are filled
 };
 inline constexpr std::array<const char*, 7> kFrameStages{"input", "marks", "views", "build", "edit", "draw", "swap"};
 

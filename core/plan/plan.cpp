@@ -250,8 +250,8 @@ std::string whoAsksFor(const Plan& plan, Dioptre high, const std::vector<BlurWis
     const auto driver = std::ranges::find_if(plan.regions, [&](const RegionPlan& r) { return plan.driver == r.id; });
     if (driver == plan.regions.end()) return reaches + ".";
     const Dioptre most = choice.reachable - plan.farOffset;
-    return "The largest P_s this lens reaches here is " + inWords(choice.reachable) + ", and " + inQuotes(driver->name) +
-           " asks for " + inWords(*plan.pS) +
+    return "The largest P_s this lens reaches here is " + inWords(choice.reachable) + ", and " +
+           inQuotes(driver->name) + " asks for " + inWords(*plan.pS) +
            (most > 0.0_D ? ": move it beyond " + inWordsRoundedUp(1.0 / most) + "." : ".");
 }
 

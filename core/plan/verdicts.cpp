@@ -158,8 +158,8 @@ BlurWish blurWish(const PlanInput& input, const PlanObject& object, Dioptre focu
         if (region.alreadyBlurred) return {};
         const Dioptre needed = object.strength ? margin : 0.0_D;
         const Dioptre room = input.rig.lensMax - needed - farBorderOffset(input.eye).power;
-        region.problem = inQuotes(object.name) + " cannot be blurred at " + inWords(object.nearest) + ": it would take " +
-                         inWords(*pMin + needed) + ", and " + lensReach(input.rig) + ".";
+        region.problem = inQuotes(object.name) + " cannot be blurred at " + inWords(object.nearest) +
+                         ": it would take " + inWords(*pMin + needed) + ", and " + lensReach(input.rig) + ".";
         region.help = room > 0.0_D ? "Move it beyond " + inWordsRoundedUp(1.0 / room) + "." : "Lower alpha.";
         if (object.strength && *object.strength > input.alpha && *pMin + input.alpha <= input.rig.lensMax) {
             region.help += " Or lower its strength to " + inWords(input.rig.lensMax - *pMin) + ".";

@@ -9,7 +9,8 @@
 using namespace ilf;
 
 TEST_CASE("samples: the perceived view agrees with rays through the pupil to 40 dB") {
-    for (const std::string name : {"museum-guide", "study-desk", "tutorial-recording", "four-objects", "scanned-desk"}) {
+    for (const std::string name :
+         {"museum-guide", "study-desk", "tutorial-recording", "four-objects", "scanned-desk"}) {
         INFO(name);
         const auto project = app::prepared(std::string(ILF_SOURCE_DIR) + "/projects/samples/" + name + ".ilfd");
         REQUIRE_MESSAGE(project.has_value(), (project ? std::string() : project.error().what));
