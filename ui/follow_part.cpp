@@ -32,7 +32,7 @@ const char* lookWord(Follow::WhenLost whenLost) {
 }
 
 std::string seconds(Second time) {
-    return time < 1.0_s ? formatted(time.si(), Unit::millisecond) : asText("%.3g s", time.si());
+    return time < 1.0_s ? asText("%.0f ms", 1e3 * time.si()) : asText("%.3g s", time.si());
 }
 
 double movedBy(const FollowedNow& now) {
