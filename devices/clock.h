@@ -2,8 +2,11 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <thread>
+
+#include "core/base/quantity.h"
 
 namespace ilf::devices {
 
@@ -17,5 +20,8 @@ struct Clock {
                 [](std::chrono::nanoseconds time) { std::this_thread::sleep_for(time); }};
     }
 };
+
+/// To the nearest nanosecond.
+inline std::chrono::nanoseconds inNs(Second time) { return std::chrono::nanoseconds(std::llround(time.si() * 1e9)); }
 
 }  // namespace ilf::devices

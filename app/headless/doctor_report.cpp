@@ -13,8 +13,8 @@ namespace ilf::app {
 namespace {
 
 using devices::Attached;
-using devices::DeviceState;
 using devices::MachineCheck;
+using devices::Readiness;
 using devices::Standing;
 
 constexpr std::size_t kWidth = 96;
@@ -25,25 +25,25 @@ std::string numbersOf(const devices::UsbModel& model) {
     return numbers;
 }
 
-const char* title(DeviceState state) {
+const char* title(Readiness state) {
     switch (state) {
-    case DeviceState::ready:
+    case Readiness::ready:
         return "READY";
-    case DeviceState::notAsked:
+    case Readiness::notAsked:
         return "NOT ASKED";
-    case DeviceState::inOurUse:
+    case Readiness::inOurUse:
         return "PLAYING";
-    case DeviceState::noPermission:
+    case Readiness::noPermission:
         return "NO PERMISSION";
-    case DeviceState::busy:
+    case Readiness::busy:
         return "IN USE";
-    case DeviceState::silent:
+    case Readiness::silent:
         return "NO ANSWER";
-    case DeviceState::trouble:
+    case Readiness::trouble:
         return "NOT READY";
-    case DeviceState::unsupported:
+    case Readiness::unsupported:
         return "NO DRIVER";
-    case DeviceState::gone:
+    case Readiness::gone:
         break;
     }
     return "UNPLUGGED";
@@ -147,8 +147,8 @@ std::string summary(const DoctorReport& report) {
 nlohmann::ordered_json jsonOf(const Attached& device) {
     return {{"kind", word(device.kind)},
             {"state", word(device.state)},
-            {"usable", !devices::unusable(device.state) && device.state != DeviceState::unsupported &&
-                           device.state != DeviceState::gone},
+            {"usable", !devices::unusable(device.state) && device.state != Readiness::unsupported &&
+                           device.state != Readiness::gone},
             {"name", device.name},
             {"where", device.where},
             {"node", device.node},
@@ -216,7 +216,7 @@ void printDeviceList(std::ostream& out, const std::vector<Attached>& attached) {
     }
     for (const Attached& device : attached) {
         // Nothing was asked here, so a device that may be opened counts as there.
-        const std::string state = device.state == DeviceState::notAsked ? "ready" : word(device.state);
+        const std::string state = device.state == Readiness::notAsked ? "ready" : word(device.state);
         out << std::left << std::setw(12) << word(device.kind) << std::setw(14) << state << std::setw(24) << device.name
             << ' ' << device.where;
         if (!device.node.empty() && device.node != device.where) out << ' ' << device.node;

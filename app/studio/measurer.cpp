@@ -15,7 +15,7 @@ namespace {
 
 using devices::MeasureStep;
 using devices::StepOutcome;
-using State = ui::MeasureView::State;
+using MeasureState = ui::MeasureView::State;
 
 /// Three sweeps at 60 Hz.
 constexpr double kHeard_s = 0.05;
@@ -128,7 +128,9 @@ bool Measurer::collect() {
     return news || !answers.empty();
 }
 
-bool Measurer::busy() const { return view_ && view_->state != State::setup && view_->state != State::stored; }
+bool Measurer::busy() const {
+    return view_ && view_->state != MeasureState::setup && view_->state != MeasureState::stored;
+}
 
 Result<void> Measurer::offer(const std::string& word, const Rig& rig) {
     if (view_) return {};
@@ -144,7 +146,7 @@ Result<void> Measurer::offer(const std::string& word, const Rig& rig) {
 }
 
 void Measurer::begin(const ui::MeasureSetup& setup) {
-    if (!view_ || view_->state != State::setup) return;
+    if (!view_ || view_->state != MeasureState::setup) return;
     view_->trouble.clear();
     order_.eye = view_->eye = setup.eye;
     order_.projector = setup.projector;
@@ -157,12 +159,12 @@ void Measurer::begin(const ui::MeasureSetup& setup) {
         }
         view_->holdsDevices = awaitsDevices_ = true;
     }
-    view_->state = State::preparing;
+    view_->state = MeasureState::preparing;
     if (view_->emulated) openPlace();
 }
 
 void Measurer::devicesAreFree(const Result<void>& freed) {
-    if (!std::exchange(awaitsDevices_, false) || !wantsDevices() || view_->state != State::preparing) return;
+    if (!std::exchange(awaitsDevices_, false) || !wantsDevices() || view_->state != MeasureState::preparing) return;
     if (freed) return openPlace();
     opened(tl::unexpected(freed.error()));
 }
@@ -203,10 +205,10 @@ void Measurer::openPlace() {
 }
 
 void Measurer::opened(Result<std::vector<MeasureStep>> steps) {
-    if (!view_ || view_->state != State::preparing) return;
+    if (!view_ || view_->state != MeasureState::preparing) return;
     if (!steps) {
         view_->trouble = steps.error().what;
-        view_->state = State::setup;
+        view_->state = MeasureState::setup;
         view_->holdsDevices = false;
         return;
     }
@@ -219,10 +221,10 @@ void Measurer::show() {
     using Wizard = devices::MeasureWizard::State;
     const Wizard state = wizard_->state();
     const auto& outcomes = wizard_->outcomes();
-    view_->state = state == Wizard::connecting  ? State::connecting
-                   : state == Wizard::measuring ? State::working
-                   : state == Wizard::judged    ? State::judged
-                                                : State::good;
+    view_->state = state == Wizard::connecting  ? MeasureState::connecting
+                   : state == Wizard::measuring ? MeasureState::working
+                   : state == Wizard::judged    ? MeasureState::judged
+                                                : MeasureState::good;
     view_->at = std::min(wizard_->number(), wizard_->steps().size() - 1);
     view_->steps.clear();
     for (std::size_t i = 0; i < wizard_->steps().size(); ++i) {
@@ -286,7 +288,7 @@ void Measurer::again() {
 }
 
 void Measurer::back() {
-    if (view_ && view_->state == State::good) {
+    if (view_ && view_->state == MeasureState::good) {
         // The wizard is done; the last step's outcome is all that is given up.
         const auto outcomes = wizard_->outcomes();
         const auto steps = wizard_->steps();
@@ -302,13 +304,13 @@ void Measurer::back() {
 }
 
 void Measurer::cancel() {
-    if (!view_ || view_->state == State::ending || view_->state == State::storing) return;
+    if (!view_ || view_->state == MeasureState::ending || view_->state == MeasureState::storing) return;
     if (wizard_) wizard_->cancel();
-    const bool opening = view_->state != State::setup;
+    const bool opening = view_->state != MeasureState::setup;
     stop_ = true;
     awaitsDevices_ = false;
     if (!opening) return view_.reset();
-    view_->state = State::ending;
+    view_->state = MeasureState::ending;
     later([this] {
         closed();
         answer([this] {
@@ -327,20 +329,20 @@ void Measurer::closed() {
 }
 
 void Measurer::store(const std::string& path) {
-    if (!view_ || view_->state != State::good) return;
-    view_->state = State::storing;
+    if (!view_ || view_->state != MeasureState::good) return;
+    view_->state = MeasureState::storing;
     view_->trouble.clear();
     later([this, path] {
         const devices::MeasuredRig measured = place_->measurement().measured();
         auto saved = projects::saveWaves(path, measuredWaves(measured, place_->order(), place_->simulated()));
         answer([this, path, measured, saved = std::move(saved)] {
-            if (!view_ || view_->state != State::storing) return;
+            if (!view_ || view_->state != MeasureState::storing) return;
             if (!saved) {
-                view_->state = State::good;
+                view_->state = MeasureState::good;
                 view_->trouble = saved.error().what;
                 return;
             }
-            view_->state = State::stored;
+            view_->state = MeasureState::stored;
             view_->file = path;
             stored_ = measured;
             // Nothing more is asked of the devices.

@@ -16,7 +16,7 @@ using namespace surfaces;
 
 namespace {
 
-constexpr double kWorkingPixels = 0.6e6;
+constexpr double kDepthPixels = 0.6e6;
 constexpr int kLargestHole = 400;
 
 /// Where the growing starts: the click, or close to it the pixel inside a surface that is most like it in depth.
@@ -175,7 +175,7 @@ Result<Mask> surfaceAt(const DepthMap& depth, const Picture& picture, Point<Came
         // wait. Only the surface's end is then looked for in full.
         const Measured full = measuredOf(depth);
         const double all = static_cast<double>(full.vergence.total());
-        const int reduce = edges ? 1 : std::max(1, static_cast<int>(std::ceil(std::sqrt(all / kWorkingPixels))));
+        const int reduce = edges ? 1 : std::max(1, static_cast<int>(std::ceil(std::sqrt(all / kDepthPixels))));
         const Surfaces surfaces = surfacesOf(reduce > 1 ? reduced(full, reduce) : full, edgesOf, how.tolerance);
         const Size size{surfaces.near.within.cols, surfaces.near.within.rows};
         const cv::Point click(std::min(static_cast<int>(seed.x) / reduce, size.width - 1),

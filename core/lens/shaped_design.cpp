@@ -11,7 +11,7 @@
 namespace ilf {
 namespace {
 
-constexpr int kSamples = 512;  ///< a sweep: 16 harmonics deviate from their samples by less than 1 %
+constexpr int kSweepSamples = 512;  ///< a sweep: 16 harmonics deviate from their samples by less than 1 %
 /// What driving at the rms limit must gain: a coil as hot as it may be is not worth 2 mD.
 constexpr double kDriveWorth_D = 2e-3;
 
@@ -24,7 +24,7 @@ std::string number(double value) {
 /// Every sample inside `hold`, its two ends included.
 template <class Visit>
 void forSamples(const Hold& hold, Visit visit) {
-    const int count = std::max(1, static_cast<int>(std::ceil(hold.length * kSamples)));
+    const int count = std::max(1, static_cast<int>(std::ceil(hold.length * kSweepSamples)));
     for (int i = 0; i <= count; ++i)
         visit(hold.centre + hold.length * (static_cast<double>(i) / count - 0.5));
 }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/base/parallel.h"
+#include "core/perceived/engine_kernel.h"
 
 namespace ilf::view {
 namespace {
@@ -17,12 +18,6 @@ struct Tap {
     std::ptrdiff_t at;  ///< in pixels from the output pixel, into running sums
     float weight;
 };
-
-/// Integral of a pixel's tent (1 at its centre, 0 one pixel away) from the left up to `x`.
-double tentUpTo(double x) {
-    const double t = std::clamp(x, -1.0, 1.0);
-    return t < 0.0 ? 0.5 * (1.0 + t) * (1.0 + t) : 1.0 - 0.5 * (1.0 - t) * (1.0 - t);
-}
 
 /// Tents of the pixels of one kernel row inside the disc, `dy` pixels from the centre, with a 0 at both ends.
 std::vector<double> rowWeights(double radius, int reach, int dy) {

@@ -5,13 +5,14 @@
 #include <numbers>
 
 namespace ilf::view {
-namespace {
 
-/// Integral of a pixel's tent (1 at its centre, 0 one pixel away) from the left up to `x`.
 double tentUpTo(double x) {
     const double t = std::clamp(x, -1.0, 1.0);
     return t < 0.0 ? 0.5 * (1.0 + t) * (1.0 + t) : 1.0 - 0.5 * (1.0 - t) * (1.0 - t);
 }
+
+namespace {
+
 double boxUpTo(double x) { return std::clamp(x + 0.5, 0.0, 1.0); }
 
 }  // namespace

@@ -33,6 +33,9 @@ struct EdgeKernel {
 /// pictures, whose interpolation is fitted to it, take this one).
 enum class PixelShape { tent, box };
 
+/// Integral of a pixel's tent (1 at its centre, 0 one pixel away) from the left up to `x`.
+double tentUpTo(double x);
+
 /// `radius` in pixels, signed: negative turns the cell about the middle. Precondition: radius is not 0.
 EdgeKernel edgeKernel(double radius, const PupilCell& cell = {}, PixelShape shape = PixelShape::tent);
 

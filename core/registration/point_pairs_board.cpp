@@ -12,7 +12,7 @@ constexpr int kColumns = 10, kRows = 7;
 /// White around the squares, which finders look for, as a share of the raster.
 constexpr double kFilled = 0.88;
 /// Sum of both pictures below which a pixel does not see the projector.
-constexpr int kDark = 8;
+constexpr int kTooDark = 8;
 
 struct Squares {
     int side = 0, x0 = 0, y0 = 0;
@@ -32,7 +32,7 @@ Image<std::uint8_t> difference(const Image<std::uint8_t>& a, const Image<std::ui
     std::vector<std::uint8_t> pixels(a.pixels().size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const int first = a.pixels()[i], second = b.pixels()[i], sum = first + second;
-        const double share = sum < kDark ? 1.0 : static_cast<double>(first - second) / sum;
+        const double share = sum < kTooDark ? 1.0 : static_cast<double>(first - second) / sum;
         pixels[i] = static_cast<std::uint8_t>(std::clamp(128.0 + 127.0 * share, 0.0, 255.0));
     }
     return {a.size(), 1, std::move(pixels)};
@@ -95,6 +95,12 @@ Result<PairedRegistration> registeredByBoard(const Image<std::uint8_t>& seen, co
     const ProjectedBoard projected = projectedBoard(projector);
     const Image<std::uint8_t> picture = difference(seen, seenInverse);
     auto corners = boardCorners(picture, projected.board, "The projected chessboard");
+    if (!corners && corners.error().fault == Fault::notFound) {
+        return fail(Fault::notFound,
+                    "The chessboard that the projector shows is not seen whole. It fills the raster: the "
+                    "camera must see all of the projector's light, on one flat, even surface with "
+                    "nothing before it; else scan, or click pairs.");
+    }
     if (!corners) return tl::unexpected(corners.error());
     if (likeness(picture, *corners, projected.board) < 0.0) std::ranges::reverse(*corners);
     std::vector<PointPair> pairs;

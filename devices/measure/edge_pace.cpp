@@ -7,7 +7,7 @@
 namespace ilf::devices {
 namespace {
 
-constexpr std::size_t kFewestEdges = 8;
+constexpr std::size_t kFewestForPace = 8;
 constexpr double kLongestGap = 8.0;  // frames; a longer one ends the pattern
 
 /// The longest stretch without a long gap.
@@ -69,7 +69,7 @@ Result<EdgePace> paceIn(const Recording& recording, std::optional<Second> interv
         return fail(Fault::device,
                     "There are too few edges in the recording; let the pattern play for a second or more.");
     };
-    if (found->edges.size() < kFewestEdges) return few();
+    if (found->edges.size() < kFewestForPace) return few();
     double usual = interval ? interval->si() : 0.0;
     if (!interval) {
         // Two frames at a time, so that it does not matter by how much falling edges come later.
@@ -80,7 +80,7 @@ Result<EdgePace> paceIn(const Recording& recording, std::optional<Second> interv
     }
     if (!(usual > 0.0)) return few();
     auto edges = longestRun(found->edges, usual);
-    if (edges.size() < kFewestEdges) return few();
+    if (edges.size() < kFewestForPace) return few();
 
     // By how much falling edges are later, first from the mean steps of both kinds.
     double later = 0.0, sums[2] = {0.0, 0.0}, counts[2] = {0.0, 0.0};
@@ -110,7 +110,7 @@ Result<EdgePace> paceIn(const Recording& recording, std::optional<Second> interv
             frames.push_back(frames.back() + steps);
             kept.push_back(edges[i]);
         }
-        if (kept.size() < kFewestEdges) return few();
+        if (kept.size() < kFewestForPace) return few();
         fit = fitted(kept, frames);
         usual = fit.interval;
         later = fit.later;

@@ -19,8 +19,6 @@ constexpr std::chrono::nanoseconds kLongestLocking = 5s;
 // The phase's worst error covers two seconds, at first those in which it was being aligned.
 constexpr std::chrono::nanoseconds kPhaseMemory = 2100ms;
 
-std::chrono::nanoseconds inNs(Second time) { return std::chrono::nanoseconds(std::llround(time.si() * 1e9)); }
-
 }  // namespace
 
 Result<void> LensSide::restsAt(Dioptre rest) {

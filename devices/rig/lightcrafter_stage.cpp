@@ -10,8 +10,6 @@ constexpr Second kLongestFrame = 40.0_ms;
 // Half of what separates 59.94 from 60 Hz. What is left is the phase lock's to judge.
 constexpr double kMostOff = 500e-6;
 
-std::chrono::nanoseconds inNs(Second time) { return std::chrono::nanoseconds(std::llround(time.si() * 1e9)); }
-
 std::string usualName(const DisplayIdentity& display) {
     return display.connector.empty() ? "the projector's display" : display.connector;
 }

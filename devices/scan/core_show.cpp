@@ -7,8 +7,8 @@
 namespace ilf::devices {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
+using std::chrono::steady_clock;
 
 /// A real projector arranges its patterns and a lens settles before the first picture.
 constexpr std::chrono::seconds kPatience{30};
@@ -31,13 +31,13 @@ CoreShow::CoreShow(const std::filesystem::path& runtimeDirectory, Rig rig, Diopt
       revision_(static_cast<std::uint64_t>(monotonicNs())) {}  // not a number that a studio beside us uses
 
 Result<Second> CoreShow::show(const Image<std::uint8_t>& picture) {
-    const auto patience = Clock::now() + kPatience;
+    const auto patience = steady_clock::now() + kPatience;
     const auto stopped = [&]() -> Result<Second> { return fail(Fault::device, "Showing patterns was cancelled."); };
     const bool first = !link_.status().connected;
     while (!link_.status().connected) {
         link_.poll(milliseconds(50));
         if (stop_.stop_requested()) return stopped();
-        if (Clock::now() > patience)
+        if (steady_clock::now() > patience)
             return fail(Fault::device, "The output core does not answer: start it, or try again.");
     }
     const Program program = restingProgram(rig_, rest_, picture);
@@ -49,7 +49,7 @@ Result<Second> CoreShow::show(const Image<std::uint8_t>& picture) {
         if (stop_.stop_requested()) return stopped();
         if (!status.fault.empty() && !first) return fail(Fault::device, status.fault);
         if (!status.lastRefusal.empty()) return fail(Fault::device, status.lastRefusal);
-        if (Clock::now() > patience)
+        if (steady_clock::now() > patience)
             return fail(Fault::device, status.fault.empty()
                                            ? "The output core did not put a pattern on show in time: try again."
                                            : status.fault);
@@ -58,7 +58,7 @@ Result<Second> CoreShow::show(const Image<std::uint8_t>& picture) {
 }
 
 Result<void> CoreShow::hold(std::chrono::milliseconds time) {
-    for (const auto end = Clock::now() + time; Clock::now() < end && !stop_.stop_requested();)
+    for (const auto end = steady_clock::now() + time; steady_clock::now() < end && !stop_.stop_requested();)
         link_.poll(milliseconds(10));
     const Status& status = link_.status();
     if (!status.connected) return fail(Fault::device, "The connection to the output core was lost.");
@@ -72,8 +72,8 @@ void CoreShow::safe() noexcept {
     try {
         if (!link_.safeLight()) return;
         // Said by the core when it is so.
-        const auto patience = Clock::now() + std::chrono::seconds(3);
-        while (link_.status().connected && link_.status().light != LightMode::steady && Clock::now() < patience)
+        const auto patience = steady_clock::now() + std::chrono::seconds(3);
+        while (link_.status().connected && link_.status().light != LightMode::steady && steady_clock::now() < patience)
             link_.poll(milliseconds(20));
     } catch (const std::exception&) {  // out of memory: the core's supervisor sees to safe light
     }

@@ -14,7 +14,7 @@ constexpr Milliseconds kAnswer{300};
 /// Bytes of something else before an answer, after which the line is given up.
 constexpr std::size_t kMostNoise = 4096;
 
-void judged(Attached& device) { device.state = device.troubles.empty() ? DeviceState::ready : DeviceState::trouble; }
+void judged(Attached& device) { device.state = device.troubles.empty() ? Readiness::ready : Readiness::trouble; }
 
 std::string modeOf(const dlpc350::Findings& found) {
     if (found.display == dlpc350::Display::pattern) return "pattern mode, patterns " + inWords(found.run);

@@ -9,7 +9,7 @@ namespace ilf::devices {
 enum class DeviceKind { projector, converter, lensDriver, camera };
 std::string word(DeviceKind kind);  ///< "projector", "converter", "lens driver", "camera"
 
-enum class DeviceState {
+enum class Readiness {
     ready,         ///< nothing is wrong with it, as far as it was looked at
     notAsked,      ///< it may be opened, but was left alone; `remarks` say why
     inOurUse,      ///< the output core that runs has it
@@ -20,15 +20,15 @@ enum class DeviceState {
     unsupported,   ///< known, but there is no driver for it in this version
     gone,          ///< unplugged while it was looked at
 };
-std::string word(DeviceState state);  ///< "ready", "not-asked", "in-our-use", "no-permission", ...
+std::string word(Readiness state);  ///< "ready", "not-asked", "in-our-use", "no-permission", ...
 /// It is there, and cannot be used.
-bool unusable(DeviceState state);
+bool unusable(Readiness state);
 
 /// Texts are empty where nothing is known. `troubles` are sentences that say what is wrong and what would help,
 /// `remarks` what is worth knowing.
 struct Attached {
     DeviceKind kind = DeviceKind::projector;
-    DeviceState state = DeviceState::ready;
+    Readiness state = Readiness::ready;
     std::string name;     ///< "LightCrafter 4500"
     std::string where;    ///< USB port ("1-2.3": bus, then ports), or what a camera is chosen by
     std::string node;     ///< the file that is opened

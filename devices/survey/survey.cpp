@@ -50,7 +50,7 @@ std::string listed(const std::vector<std::string>& names) {
     return all;
 }
 
-void troubled(Attached& device, DeviceState state, std::string trouble) {
+void troubled(Attached& device, Readiness state, std::string trouble) {
     device.state = state;
     device.troubles.push_back(std::move(trouble));
 }
@@ -59,22 +59,22 @@ void troubled(Attached& device, DeviceState state, std::string trouble) {
 bool judgedFromOutside(Attached& device, const SurveyOptions& options, const std::string& mayHelp) {
     device.holders = programsHolding(device.node);
     if (heldByOneOf(options.core, device)) {
-        device.state = DeviceState::inOurUse;
+        device.state = Readiness::inOurUse;
         device.remarks.emplace_back("The output core plays on it, so it was left alone. How it is doing stands in the "
                                     "studio.");
     } else if (!mayOpen(device.node)) {
         std::error_code none;
         if (!fs::exists(device.node, none))
-            troubled(device, DeviceState::gone, "It was unplugged, or is being plugged in, just now.");
+            troubled(device, Readiness::gone, "It was unplugged, or is being plugged in, just now.");
         else
-            troubled(device, DeviceState::noPermission, "You may not open " + device.node + ". " + mayHelp);
+            troubled(device, Readiness::noPermission, "You may not open " + device.node + ". " + mayHelp);
     } else if (!device.holders.empty() && device.kind != DeviceKind::camera) {
-        troubled(device, DeviceState::busy,
+        troubled(device, Readiness::busy,
                  "It is in use by " + listed(device.holders) + ". Close that, then run doctor again.");
     } else if (options.ask == Ask::nothing) {
-        device.state = DeviceState::notAsked;
+        device.state = Readiness::notAsked;
     } else if (options.ask == Ask::whenNoCore && !options.core.empty()) {
-        device.state = DeviceState::notAsked;
+        device.state = Readiness::notAsked;
         device.remarks.emplace_back("An output core runs, so it was not asked how it is. --ask does that; patterns "
                                     "that a projector shows are disturbed for a moment.");
     } else {
@@ -100,9 +100,9 @@ bool goneNow(const UsbIdentity& identity, const Clock& clock) {
 }
 
 /// Asking failed. What is no longer listed has been unplugged, whatever the failed call said.
-void failed(Attached& device, DeviceState state, const Error& error, const UsbIdentity& identity, const Clock& clock) {
+void failed(Attached& device, Readiness state, const Error& error, const UsbIdentity& identity, const Clock& clock) {
     if (goneNow(identity, clock))
-        troubled(device, DeviceState::gone, "It was unplugged while it was looked at.");
+        troubled(device, Readiness::gone, "It was unplugged while it was looked at.");
     else
         troubled(device, state, error.what);
 }
@@ -111,15 +111,15 @@ void lookAtUsb(Attached& device, const UsbIdentity& identity, UsbBus& bus, const
     if (!judgedFromOutside(device, options, "Run: " + installCommand() + ", then unplug it and plug it in again."))
         return;
     auto link = bus.link(identity.path, dlpc350::LightCrafter::kInterface);
-    if (!link) return failed(device, DeviceState::busy, link.error(), identity, options.clock);
+    if (!link) return failed(device, Readiness::busy, link.error(), identity, options.clock);
     const auto told = device.kind == DeviceKind::projector ? askLightCrafter(device, *std::move(link), options.clock)
                                                            : askConverter(device, **link);
-    if (!told) failed(device, DeviceState::silent, told.error(), identity, options.clock);
+    if (!told) failed(device, Readiness::silent, told.error(), identity, options.clock);
 }
 
 void lookAtSerial(Attached& device, const UsbIdentity& identity, const SurveyOptions& options) {
     if (device.node.empty())
-        return troubled(device, DeviceState::silent,
+        return troubled(device, Readiness::silent,
                         "It has no serial port yet. Wait a second and run doctor again; if it stays so, the kernel's "
                         "driver is missing: sudo modprobe cdc_acm");
     if (!judgedFromOutside(device, options,
@@ -128,9 +128,9 @@ void lookAtSerial(Attached& device, const UsbIdentity& identity, const SurveyOpt
                                joinCommand("dialout") + ") and log in again."))
         return;
     const auto port = openSerialPort(device.node);
-    if (!port) return failed(device, DeviceState::busy, port.error(), identity, options.clock);
+    if (!port) return failed(device, Readiness::busy, port.error(), identity, options.clock);
     const auto told = askLensDriver(device, **port, options.clock);
-    if (!told) failed(device, DeviceState::silent, told.error(), identity, options.clock);
+    if (!told) failed(device, Readiness::silent, told.error(), identity, options.clock);
 }
 
 Attached lookedAt(const UsbIdentity& identity, UsbBus& bus, const SurveyOptions& options) {
@@ -146,7 +146,7 @@ Attached lookedAt(const UsbIdentity& identity, UsbBus& bus, const SurveyOptions&
     device.node =
         (known.serial ? serialPortOf(identity, options.places) : usbNodeOf(identity, options.places)).string();
     if (!known.driven) {
-        device.state = DeviceState::unsupported;
+        device.state = Readiness::unsupported;
         device.remarks.emplace_back("This version has no driver for it, and leaves it alone.");
     } else if (known.serial) {
         lookAtSerial(device, identity, options);
@@ -166,8 +166,8 @@ Attached lookedAt(const CameraEntry& camera, const SurveyOptions& options) {
     SurveyOptions outside = options;
     outside.ask = Ask::evenWithCore;
     if (judgedFromOutside(device, outside, "Join the group video (" + joinCommand("video") + ") and log in again."))
-        device.state = DeviceState::ready;
-    if (device.state == DeviceState::ready && !device.holders.empty())
+        device.state = Readiness::ready;
+    if (device.state == Readiness::ready && !device.holders.empty())
         device.remarks.push_back("It is open in " + listed(device.holders) + "; only one program gets its pictures.");
     if (camera.byPort)
         device.remarks.emplace_back("It has no serial number, so a project remembers the port it is plugged into.");
@@ -204,33 +204,33 @@ std::string word(DeviceKind kind) {
     return "camera";
 }
 
-std::string word(DeviceState state) {
+std::string word(Readiness state) {
     switch (state) {
-    case DeviceState::ready:
+    case Readiness::ready:
         return "ready";
-    case DeviceState::notAsked:
+    case Readiness::notAsked:
         return "not-asked";
-    case DeviceState::inOurUse:
+    case Readiness::inOurUse:
         return "in-our-use";
-    case DeviceState::noPermission:
+    case Readiness::noPermission:
         return "no-permission";
-    case DeviceState::busy:
+    case Readiness::busy:
         return "busy";
-    case DeviceState::silent:
+    case Readiness::silent:
         return "silent";
-    case DeviceState::trouble:
+    case Readiness::trouble:
         return "trouble";
-    case DeviceState::unsupported:
+    case Readiness::unsupported:
         return "unsupported";
-    case DeviceState::gone:
+    case Readiness::gone:
         break;
     }
     return "gone";
 }
 
-bool unusable(DeviceState state) {
-    return state == DeviceState::noPermission || state == DeviceState::busy || state == DeviceState::silent ||
-           state == DeviceState::trouble;
+bool unusable(Readiness state) {
+    return state == Readiness::noPermission || state == Readiness::busy || state == Readiness::silent ||
+           state == Readiness::trouble;
 }
 
 }  // namespace ilf::devices

@@ -5,7 +5,7 @@
 namespace ilf::devices {
 namespace {
 
-constexpr Milliseconds kControl{100};
+constexpr Milliseconds kInputControl{100};
 // 5 ms in whole 64-byte packets: what a phase decision waits for at most.
 constexpr std::size_t kTransferBytes = 512;
 constexpr int kInFlight = 8;
@@ -26,21 +26,24 @@ Result<std::unique_ptr<AnalogInput>> AnalogInput::start(std::shared_ptr<UsbLink>
 
 AnalogInput::~AnalogInput() {
     // A single disturbance is no reason to let it run.
-    if (!link_->controlOut(usb1208::kStopInput, {}, kControl)) link_->controlOut(usb1208::kStopInput, {}, kControl);
+    if (!link_->controlOut(usb1208::kStopInput, {}, kInputControl))
+        link_->controlOut(usb1208::kStopInput, {}, kInputControl);
     stream_.reset();
-    link_->controlOut(usb1208::kClearInput, {}, kControl);
+    link_->controlOut(usb1208::kClearInput, {}, kInputControl);
 }
 
 Result<void> AnalogInput::started() {
-    const auto memory = link_->controlIn(usb1208::kReadInputCalibration, usb1208::kInputCalibrationBytes, kControl);
+    const auto memory =
+        link_->controlIn(usb1208::kReadInputCalibration, usb1208::kInputCalibrationBytes, kInputControl);
     if (memory) calibrations_ = usb1208::inputCalibrationsFrom(*memory);
     const auto from = link_->bulkIn();
     if (!from) return tl::unexpected(from.error());
-    auto ready =
-        link_->controlOut(usb1208::kStopInput, {}, kControl)
-            .and_then([&] { return link_->clearHalt(*from); })
-            .and_then([&] { return link_->controlOut(usb1208::kClearInput, {}, kControl); })
-            .and_then([&] { return link_->controlOut(usb1208::kConfigureInput, usb1208::inputRanges(), kControl); });
+    auto ready = link_->controlOut(usb1208::kStopInput, {}, kInputControl)
+                     .and_then([&] { return link_->clearHalt(*from); })
+                     .and_then([&] { return link_->controlOut(usb1208::kClearInput, {}, kInputControl); })
+                     .and_then([&] {
+                         return link_->controlOut(usb1208::kConfigureInput, usb1208::inputRanges(), kInputControl);
+                     });
     if (!ready) return ready;
     auto stream = link_->streamIn(*from, kTransferBytes, kInFlight,
                                   [this](std::span<const std::uint8_t> data) { arrived(data); });
@@ -48,7 +51,7 @@ Result<void> AnalogInput::started() {
     stream_ = *std::move(stream);
     const auto before = clock_.now();
     const auto mask = static_cast<std::uint8_t>(channels_ == 1 ? 0x01 : 0x03);
-    auto running = link_->controlOut(usb1208::kStartInput, usb1208::inputScan(mask), kControl);
+    auto running = link_->controlOut(usb1208::kStartInput, usb1208::inputScan(mask), kInputControl);
     startedAt_ = before + (clock_.now() - before) / 2;
     return running;
 }
@@ -65,7 +68,7 @@ void AnalogInput::arrived(std::span<const std::uint8_t> data) {
 Result<HeardBlock> AnalogInput::take() {
     if (auto state = stream_->state(); !state) {
         const auto status =
-            link_->controlIn(usb1208::kReadStatus, usb1208::kStatusBytes, kControl).and_then(usb1208::statusFrom);
+            link_->controlIn(usb1208::kReadStatus, usb1208::kStatusBytes, kInputControl).and_then(usb1208::statusFrom);
         if (!status || !status->overrun) return tl::unexpected(std::move(state.error()));
         return fail(Fault::device,
                     "The DAC box lost samples of the trigger: this computer was too busy to fetch them. Close "

@@ -17,8 +17,6 @@ constexpr std::chrono::nanoseconds kTryEvery = 500ms;
 // No server tells that a night light has bent the gamma ramp.
 constexpr std::chrono::nanoseconds kLookEvery = 1s;
 
-std::string sizeText(Size size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
-
 class DisplayOutput final : public VideoOutput {
 public:
     DisplayOutput(DisplayWish wish, Clock clock)

@@ -4,9 +4,10 @@
 #include <cassert>
 
 namespace ilf::devices {
-namespace {
 
 std::string sizeText(Size size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
+
+namespace {
 
 bool isOn(const FoundDisplay& display) { return display.mode.width > 0; }
 

@@ -58,4 +58,7 @@ Result<ChosenDisplay> chosenDisplay(const std::vector<FoundDisplay>& displays, c
 /// "HDMI-2 (TXN DLPC350)": as operators know it.
 std::string displayName(const DisplayIdentity& identity);
 
+/// "912x1140": a display's mode.
+std::string sizeText(Size size);
+
 }  // namespace ilf::devices
