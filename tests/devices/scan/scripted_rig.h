@@ -1,10 +1,12 @@
 // A show and a camera on a clock that only frames move, looking at the emulated scene, with faults by script.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -23,8 +25,11 @@ struct Script {
     int movedFrom = kNever;        ///< the camera was bumped by 6 mm
     int wrongScreenFrom = kNever;  ///< light of another picture
     int lostFrom = kNever;         ///< the camera is unplugged
+    Second period = 0.05_s;        ///< between frames
+    int slowShowFrom = kNever;     ///< from this picture on showing returns a tenth of a second after first light
     int repeatEvery = 0;           ///< each so-manieth frame is the one before again; 0: none
     double ambientLux = 10.0, aperture = 1.0;
+    double grain = 0.0;  ///< one sigma of noise beside the sensor's own, codes: gain turned up in the dark
     bool setsExposure = true;
     std::function<void(int)> onFrame = {};  ///< told each frame's number
 
@@ -33,11 +38,10 @@ struct Script {
     Second exposure = 0.033_s;
 };
 
-/// A desk seen with 160 x 128 pixels by a camera of 20 frames a second, lit by a projector of 64 x 48.
+/// A desk seen with 160 x 128 pixels, lit by a projector of 64 x 48.
 class ScriptedScene {
 public:
     static constexpr Size kRaster{64, 48};
-    static constexpr Second kFrame = 0.05_s;
 
     explicit ScriptedScene(Script& script) : script_(script), light_(full(1.0F)), before_(light_) {}
 
@@ -48,10 +52,11 @@ public:
         for (const std::uint8_t value : picture.pixels())
             light_.push_back(static_cast<float>(value) / 255.0F);
         changedAt_ = now_;
-        return now_;
+        if (script_.shown > script_.slowShowFrom) now_ += 0.1_s;
+        return changedAt_;
     }
     Frame frame() {
-        now_ += kFrame;
+        now_ += script_.period;
         const int number = script_.frames++;
         if (script_.onFrame) script_.onFrame(number);
         // What was there for a part of the exposure shows for that part.
@@ -68,6 +73,7 @@ public:
         sensor.gain = script_.aperture;
         sensor.seed = static_cast<std::uint64_t>(number) + 1;
         Image<std::uint8_t> picture = scene::exposed(transport, lux_, sensor);
+        if (script_.grain > 0.0) picture = grainy(picture, script_.grain, number);
         const bool again = script_.repeatEvery > 0 && number % script_.repeatEvery == 0;
         if ((number >= script_.frozenFrom || again) && !past_.empty()) picture = past_.back();
         past_.push_back(picture);
@@ -89,6 +95,14 @@ public:
     }
 
 private:
+    static Image<std::uint8_t> grainy(const Image<std::uint8_t>& picture, double sigma, int number) {
+        std::mt19937 random(static_cast<std::uint32_t>(number) + 1);
+        std::normal_distribution<double> noise(20.0, sigma);
+        std::vector<std::uint8_t> codes;
+        for (const std::uint8_t code : picture.pixels())
+            codes.push_back(static_cast<std::uint8_t>(std::clamp(code + noise(random), 0.0, 255.0)));
+        return Image<std::uint8_t>(picture.size(), picture.channels(), std::move(codes));
+    }
     static std::vector<float> full(float value) {
         return std::vector<float>(static_cast<std::size_t>(kRaster.width) * kRaster.height, value);
     }
