@@ -5,11 +5,11 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 cd "$root"
 usage() {
     cat <<END
-Usage: ./test.sh           release tests (panels, real window and processes included), then core, devices and projects
-                           under ASan+UBSan, and what runs threads under TSan
-       ./test.sh --quick   the release tests only
-       ./test.sh --full    everything: all tests under both sanitizers, 100 kills instead of 10, clang-tidy, formatting,
-                           every benchmark run once
+Usage: ./test.sh           what is shipped, in release (core, panels, programs, real window and processes), then core,
+                           devices and projects under ASan+UBSan
+       ./test.sh --quick   all tests, in release only
+       ./test.sh --full    everything: all tests in release and under both sanitizers, 100 kills instead of 10,
+                           clang-tidy, formatting, every benchmark run once
 The last line is the summary over all runs; the exit code is 0 when nothing failed.
 END
 }
@@ -78,8 +78,11 @@ check() {
 sources() { git ls-files --cached --others --exclude-standard -- '*.cpp' '*.h'; }
 formatted() { sources | xargs clang-format-19 --dry-run --Werror; }
 tidy() {
+    # File by file: neither joined nor behind precompiled headers.
+    cmake --preset asan-ubsan -B build/tidy -DCMAKE_UNITY_BUILD=OFF -DILF_PCH=OFF --log-level=WARNING
+    cmake --build build/tidy --target ilf_generated_messages
     sources | grep '\.cpp$' | grep -v -E '^tests/(bench|layers)/' |
-        xargs -P "$jobs" -n 4 clang-tidy-19 -p build/asan-ubsan --quiet --warnings-as-errors='*'
+        xargs -P "$jobs" -n 4 clang-tidy-19 -p build/tidy --quiet --warnings-as-errors='*'
 }
 benchmarks() {
     local bench status=0
@@ -92,34 +95,36 @@ benchmarks() {
 }
 
 export ILF_KILLS="${ILF_KILLS:-$([ "$mode" = full ] && echo 100 || echo 10)}"
-build release all
-tests release
-
-if [ "$mode" != quick ]; then
-    support="$root/tests/support"
-    export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1"
-    export LSAN_OPTIONS="suppressions=$support/lsan.supp:print_suppressions=0"
-    export UBSAN_OPTIONS="print_stacktrace=1"
-    export TSAN_OPTIONS="suppressions=$support/tsan.supp:halt_on_error=0:second_deadlock_stack=1"
-    if [ "$mode" = full ]; then
-        unit=(test_core test_devices test_projects test_ui test_app)
-        build asan-ubsan "${unit[@]}"
-        tests asan-ubsan --tests-regex '^(core|devices|projects|ui|app)/'
-        build tsan "${unit[@]}"
-        tests tsan --tests-regex '^(core|devices|projects|ui|app)/'
-        check "clang-format" formatted
-        check "clang-tidy" tidy
-        build release benches
-        check "benchmarks" benchmarks
-    else
+support="$root/tests/support"
+export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1"
+export LSAN_OPTIONS="suppressions=$support/lsan.supp:print_suppressions=0"
+export UBSAN_OPTIONS="print_stacktrace=1"
+export TSAN_OPTIONS="suppressions=$support/tsan.supp:halt_on_error=0:second_deadlock_stack=1"
+case "$mode" in
+    quick)
+        build release all
+        tests release
+        ;;
+    default)
+        # Drivers and files are built for the sanitizers only: once is enough, and half the time is compiling.
+        build release illuminatedfocus illuminatedfocus-core make-samples optics_stress test_core test_ui test_app test_process
+        tests release --exclude-regex '^(devices|projects)/'
         build asan-ubsan test_core test_devices test_projects
         tests asan-ubsan --tests-regex '^(core|devices|projects)/'
-        build tsan test_devices test_app
-        # What runs threads of ours; whole programs take the sanitizer minutes each, and --full runs them.
-        tests tsan --tests-regex '^(devices|app)/' \
-            --exclude-regex '^app/(emulated/|samples_view|evaluate|optics_|lens_|[a-z_]*_command|decode_scan|render_)'
-    fi
-fi
+        ;;
+    full)
+        build release all benches
+        tests release
+        unit=(test_core test_devices test_projects test_ui test_app)
+        for preset in asan-ubsan tsan; do
+            build "$preset" "${unit[@]}"
+            tests "$preset" --tests-regex '^(core|devices|projects|ui|app)/'
+        done
+        check "clang-format" formatted
+        check "clang-tidy" tidy
+        check "benchmarks" benchmarks
+        ;;
+esac
 
 say "summary"
 if [ "${#failures[@]}" -gt 0 ]; then printf 'FAILED %s\n' "${failures[@]}"; fi

@@ -6,11 +6,11 @@
 namespace ilf::projects {
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
-const char* const kFormat = "illuminatedfocus-calibration";
+constexpr std::size_t kMostOfCalibration = std::size_t{1} << 20;
+const char* const kCalibrationFormat = "illuminatedfocus-calibration";
 
 Result<Json> readJson(const fs::path& path) {
-    return readWhole(path, kMaxBytes).and_then([&](const std::string& text) {
+    return readWhole(path, kMostOfCalibration).and_then([&](const std::string& text) {
         return Json::parse(text, spoken(path));
     });
 }
@@ -20,7 +20,8 @@ Result<Json> readJson(const fs::path& path) {
 Result<ProcamCalibration> readCalibration(const fs::path& path) {
     const auto json = readJson(path);
     if (!json) return tl::unexpected(json.error());
-    if (const auto known = checkedFormat(*json, spoken(path), kFormat, kCalibrationVersion, "calibration"); !known)
+    if (const auto known = checkedFormat(*json, spoken(path), kCalibrationFormat, kCalibrationVersion, "calibration");
+        !known)
         return tl::unexpected(known.error());
     JsonReader reader(*json, spoken(path));
     ProcamCalibration calibration = procamCalibrationFrom(reader);
@@ -30,8 +31,8 @@ Result<ProcamCalibration> readCalibration(const fs::path& path) {
 
 Result<void> writeCalibration(const fs::path& path, const ProcamCalibration& calibration) {
     const auto before = readJson(path);
-    Json json = before && before->word("format") == kFormat ? *before : Json();
-    json.set("format", std::string(kFormat));
+    Json json = before && before->word("format") == kCalibrationFormat ? *before : Json();
+    json.set("format", std::string(kCalibrationFormat));
     json.set("version", kCalibrationVersion);
     return writeAtomically(path, written(calibration, json).text());
 }

@@ -10,7 +10,7 @@
 namespace ilf::projects {
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+constexpr std::size_t kMostOfImport = std::size_t{1} << 20;
 
 /// The numbers of a matrix, row by row, or none where it is missing or has another count.
 std::vector<double> numbersOf(const cv::FileStorage& file, std::initializer_list<const char*> names,
@@ -36,7 +36,7 @@ Pinhole pinholeOf(Size size, const std::vector<double>& k, const std::vector<dou
 }  // namespace
 
 Result<ProcamCalibration> importCalibration(const fs::path& path, Size projector, Metre unit) {
-    const auto text = readWhole(path, kMaxBytes);
+    const auto text = readWhole(path, kMostOfImport);
     if (!text) return tl::unexpected(text.error());
     const auto bad = [&](const std::string& what) { return fail(Fault::badFile, spoken(path) + ": " + what); };
     try {

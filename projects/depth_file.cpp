@@ -18,7 +18,7 @@ namespace ilf::projects {
 
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::size_t kMostOfDepth = std::size_t{1} << 30;
 constexpr Metre kTumStep = 0.2_mm;
 
 std::string sizeWords(Size size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
@@ -146,7 +146,7 @@ Result<DepthFile> decodeDepth(std::string_view bytes, const std::string& name, c
 }
 
 Result<DepthFile> readDepth(const fs::path& path, const DepthReading& reading) {
-    return readWhole(path, kMostBytes).and_then([&](const std::string& bytes) {
+    return readWhole(path, kMostOfDepth).and_then([&](const std::string& bytes) {
         return decodeDepth(bytes, spoken(path), reading);
     });
 }

@@ -15,7 +15,7 @@ namespace ilf::projects {
 namespace {
 
 constexpr std::size_t kMaxFactBytes = 1000;
-constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
+constexpr std::size_t kMostOfMap = std::size_t{1} << 30;
 constexpr float kFarthest = 1e6F;
 
 bool plainKey(const std::string& key) {
@@ -56,7 +56,7 @@ Result<std::string> unzipped(std::string_view packed, const std::string& name) {
     stream.avail_in = static_cast<uInt>(packed.size());
     std::string plain;
     int state = Z_OK;
-    while (state == Z_OK && plain.size() < kMaxBytes) {
+    while (state == Z_OK && plain.size() < kMostOfMap) {
         const std::size_t before = plain.size();
         plain.resize(before + (std::size_t{4} << 20));
         stream.next_out = reinterpret_cast<Bytef*>(plain.data() + before);
@@ -165,7 +165,7 @@ Result<void> writeMap(const fs::path& path, const DenseMap& map, const MapFacts&
 }
 
 Result<MapFile> readMap(const fs::path& path) {
-    return readWhole(path, kMaxBytes).and_then([&](const std::string& bytes) {
+    return readWhole(path, kMostOfMap).and_then([&](const std::string& bytes) {
         return decodeMap(bytes, spoken(path));
     });
 }

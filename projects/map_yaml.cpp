@@ -9,7 +9,7 @@
 namespace ilf::projects {
 namespace {
 
-const char* const kFormat = "illuminatedfocus-map";
+const char* const kMapFormat = "illuminatedfocus-map";
 constexpr int kVersion = 1;
 const char* const kConvention = "pixel (i, j) has its centre at (i + 0.5, j + 0.5)";
 
@@ -36,8 +36,8 @@ Result<Image<T>> imageFrom(const cv::FileStorage& file, const char* key, int cha
 }
 
 Result<MapFile> read(const cv::FileStorage& file, const std::string& name) {
-    if (static_cast<std::string>(file["format"]) != kFormat) {
-        return fail(Fault::badFile, name + " is no scanned map: its \"format\" is not " + kFormat + ".");
+    if (static_cast<std::string>(file["format"]) != kMapFormat) {
+        return fail(Fault::badFile, name + " is no scanned map: its \"format\" is not " + kMapFormat + ".");
     }
     if (static_cast<int>(file["version"]) > kVersion) {
         return fail(Fault::badFile, name + " was written by a newer version. Update this program, or scan again.");
@@ -68,7 +68,7 @@ Result<std::string> mapAsYaml(const DenseMap& map, const MapFacts& facts) {
     try {
         using Storage = cv::FileStorage;
         Storage file("map.yml", Storage::WRITE | Storage::MEMORY | Storage::FORMAT_YAML | Storage::BASE64);
-        file << "format" << kFormat << "version" << kVersion << "convention" << kConvention;
+        file << "format" << kMapFormat << "version" << kVersion << "convention" << kConvention;
         file << "facts"
              << "{";
         for (const auto& [key, value] : facts)

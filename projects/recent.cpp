@@ -9,8 +9,8 @@
 namespace ilf::projects {
 namespace {
 
-const char* const kFormat = "illuminatedfocus-recent";
-constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+const char* const kListFormat = "illuminatedfocus-recent";
+constexpr std::size_t kMostOfList = std::size_t{1} << 20;
 
 fs::path listFile() { return stateDir() / "recent.json"; }
 
@@ -21,7 +21,7 @@ fs::path settled(const fs::path& path) {
 
 Result<void> write(const std::vector<RecentProject>& projects) {
     Json json;
-    json.set("format", std::string(kFormat));
+    json.set("format", std::string(kListFormat));
     json.set("version", 1);
     std::vector<Json> list;
     for (const RecentProject& project : projects) {
@@ -43,10 +43,10 @@ std::vector<RecentProject> without(std::vector<RecentProject> projects, const fs
 
 std::vector<RecentProject> recentProjects() {
     std::vector<RecentProject> projects;
-    const auto json = readWhole(listFile(), kMaxBytes).and_then([](const std::string& text) {
+    const auto json = readWhole(listFile(), kMostOfList).and_then([](const std::string& text) {
         return Json::parse(text, "recent.json");
     });
-    if (!json || json->word("format") != kFormat) return projects;
+    if (!json || json->word("format") != kListFormat) return projects;
     for (const Json& item : json->objects("projects")) {
         const fs::path path = item.word("path");
         std::error_code ignored;

@@ -19,7 +19,7 @@ using Clock = std::chrono::system_clock;
 
 const char* const kSessionFormat = "illuminatedfocus-session";
 const char* const kStartsFormat = "illuminatedfocus-starts";
-constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+constexpr std::size_t kMostOfRecovery = std::size_t{1} << 20;
 constexpr double kSkippedKeptFor_s = 30.0 * 24 * 3600;
 constexpr double kCrashWindow_s = 5.0 * 60;
 constexpr int kCrashesForSafeStart = 2;
@@ -32,7 +32,7 @@ double unixSeconds(Clock::time_point time) { return std::chrono::duration<double
 
 /// An object of one of our formats, or nothing.
 std::optional<Json> readState(const fs::path& file, const char* format) {
-    const auto json = readWhole(file, kMaxBytes).and_then([&](const std::string& text) {
+    const auto json = readWhole(file, kMostOfRecovery).and_then([&](const std::string& text) {
         return Json::parse(text, file.filename().string());
     });
     if (!json || json->word("format") != format) return std::nullopt;

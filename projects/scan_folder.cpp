@@ -18,7 +18,7 @@ namespace ilf::projects {
 namespace {
 
 const char* const kManifest = "scan.json";
-const char* const kFormat = "illuminatedfocus-scan";
+const char* const kScanFormat = "illuminatedfocus-scan";
 constexpr int kVersion = 1;
 constexpr Size kUsualProjector{1024, 768};
 constexpr int kMostSide = 16384;
@@ -121,7 +121,7 @@ Result<Manifest> readManifest(const fs::path& folder, std::optional<Size> projec
     const std::string file = spoken(folder / kManifest);
     const auto json = Json::parse(*text, file);
     if (!json) return tl::unexpected(json.error());
-    if (const auto good = checkedFormat(*json, file, kFormat, kVersion, "scan"); !good)
+    if (const auto good = checkedFormat(*json, file, kScanFormat, kVersion, "scan"); !good)
         return tl::unexpected(good.error());
     JsonReader reader(*json, file);
     Manifest manifest{projector.value_or(kUsualProjector), {}};
@@ -228,7 +228,7 @@ Result<Scan> readScan(const fs::path& folder, std::optional<Size> projector) {
 
 Result<void> writeScan(const fs::path& folder, const Scan& scan) {
     Json json;
-    json.set("format", std::string(kFormat));
+    json.set("format", std::string(kScanFormat));
     json.set("version", kVersion);
     json.set("projector", std::vector<double>{double(scan.projector.width), double(scan.projector.height)});
     std::vector<TreeFile> files;

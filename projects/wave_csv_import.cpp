@@ -12,7 +12,7 @@
 namespace ilf::projects {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{16} << 20;
+constexpr std::size_t kMostOfCsv = std::size_t{16} << 20;
 /// Of the drive's swing: how far, rms, a recorded drive may be from the sine that the header tells of.
 constexpr double kDriveTolerance = 0.05;
 constexpr std::size_t kDriveHarmonics = 16;
@@ -24,7 +24,7 @@ struct Named {
 
 Result<std::vector<Named>> manifestOf(const fs::path& folder) {
     const fs::path path = folder / "manifest.csv";
-    const auto text = readWhole(path, kMostBytes);
+    const auto text = readWhole(path, kMostOfCsv);
     if (!text) return tl::unexpected(text.error());
     std::vector<Named> files;
     std::vector<std::string> columns;
@@ -218,7 +218,7 @@ Result<ShapedWave> shapedOf(const CsvWave& csv, const LensRecord& record) {
 
 /// Adds one file's wave to those of the files before.
 Result<void> addFile(WaveFile& waves, std::set<std::int64_t>& ids, const Named& named) {
-    const auto text = readWhole(named.file, kMostBytes);
+    const auto text = readWhole(named.file, kMostOfCsv);
     if (!text) return tl::unexpected(text.error());
     auto csv = CsvWave::of(*text, spoken(named.file), named.keys);
     if (!csv) return tl::unexpected(csv.error());

@@ -14,7 +14,7 @@
 namespace ilf::projects {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+constexpr std::size_t kMostOfDatabase = std::size_t{256} << 20;
 /// Of SQLite's file format, section 1.3: where the first page says what the file is.
 constexpr std::size_t kHeaderBytes = 100, kPageSizeAt = 16, kLogAt = 18, kPagesAt = 28, kVersionAt = 60,
                       kApplicationAt = 68;
@@ -298,7 +298,7 @@ Result<LensRecord> Opening::recordOf(const Statement& row) {
 }  // namespace
 
 Result<WaveFile> openWaves(const std::filesystem::path& path) {
-    auto bytes = readWhole(path, kMostBytes);
+    auto bytes = readWhole(path, kMostOfDatabase);
     if (!bytes) return tl::unexpected(bytes.error());
     if (const auto wrong = wrongWithHeader(*bytes)) return fail(Fault::badFile, spoken(path) + " " + *wrong);
     auto waves = Opening(*bytes).run();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Hertz kRate = 60.0_Hz;
 constexpr Second kExposure = 1.0_ms;
-constexpr Metre kLensToPupil = 20.0_mm, kLensAperture = 16.0_mm, kFocalLength = 24.0_mm, kPitch = 8.4_um;
+constexpr Metre kLensToCamera = 20.0_mm, kLensAperture = 16.0_mm, kFocalLength = 24.0_mm, kPitch = 8.4_um;
 constexpr double kFNumber = 1.4;
 constexpr int kMoments = 16;
 
@@ -44,7 +44,7 @@ Swept looked(const Harmonics& power, double target) {
 /// The dots look alike from everywhere (as a projector beside the camera throws them): 42.5 mm apart at 500 mm, 0.7
 /// mm wide, about one pixel of the paper's projector. Assumed.
 DotChart chartAt(Metre distance) {
-    const double size = (distance + kLensToPupil) / (0.5_m + kLensToPupil);
+    const double size = (distance + kLensToCamera) / (0.5_m + kLensToCamera);
     return {distance, size * 42.5_mm, size * 0.35_mm};
 }
 
@@ -54,7 +54,7 @@ struct Bench {
 };
 
 Image<std::uint8_t> pictured(const Bench& bench, Metre distance, std::span<const double> powers, std::uint64_t seed) {
-    const TracedCamera camera = focusedCamera(kFocalLength, kFNumber, kPitch, distance, kLensToPupil, kLensAperture);
+    const TracedCamera camera = focusedCamera(kFocalLength, kFNumber, kPitch, distance, kLensToCamera, kLensAperture);
     return exposed(picturedDots(camera, chartAt(distance), powers, bench.sensor, bench.rays), seed);
 }
 
@@ -75,7 +75,7 @@ Radii radii(const Image<std::uint8_t>& picture) {
 double modelRadius(Metre distance, Dioptre power) {
     Wearer wearer;
     wearer.camera = CameraObserver{kFocalLength, kFNumber, distance, kPitch};
-    wearer.lensToPupil = kLensToPupil;
+    wearer.lensToPupil = kLensToCamera;
     wearer.lensAperture = 1.0_m;  // the camera's own pupil; the lens stops the beam below
     return 0.5 * blurDiameterStopped(eyeOptics(wearer), kLensAperture, distance, power).in(kPitch);
 }

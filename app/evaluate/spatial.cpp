@@ -57,25 +57,25 @@ Result<FourObjects> condition(const char* words, bool onlyBBlurred, const Evalua
 }
 
 /// Pixels for a millimetre of the surface at half a metre.
-constexpr double kPixelsPerMm = 4.0;
-constexpr Metre kSurface = 500.0_mm;
+constexpr double kDotsPerMm = 4.0;
+constexpr Metre kWall = 500.0_mm;
 /// From the optical centre to the border, as in the reference tables.
-constexpr Metre kBorderAt = 50.0_mm;
+constexpr Metre kMiddle = 50.0_mm;
 
 /// The paper's captures: a camera with the pupil of an eye behind one lens. It blurs the side it is told to, with light
 /// at exactly `power`.
 Result<Document> seamScene(const Picture& picture, bool blurredInside, Dioptre power, Blending blending) {
     const Size size = picture.size();
     const double middle = 0.5 * size.width;
-    Document document = scene(picture, 0.0, {}, Look::focus, kSurface);
+    Document document = scene(picture, 0.0, {}, Look::focus, kWall);
     // The optical centre lies to the left, so the left half is the inner one.
-    document.regions.push_back(Box<Region>(strip("blurred", size, blurredInside ? 0.0 : middle,
-                                                 blurredInside ? middle : size.width, Look::blur, kSurface)));
-    document.wearer.camera = CameraObserver{16.0_mm, 4.0, kSurface, 8.4_um};
-    document.wearer.axes = {LensAxis{-kBorderAt, 0.0_m}, LensAxis{-kBorderAt, 0.0_m}};
-    document.scene.scale.focalPixels = 1e3 * kPixelsPerMm * (kSurface + document.wearer.lensToPupil).si();
+    document.regions.push_back(Box<Region>(
+        strip("blurred", size, blurredInside ? 0.0 : middle, blurredInside ? middle : size.width, Look::blur, kWall)));
+    document.wearer.camera = CameraObserver{16.0_mm, 4.0, kWall, 8.4_um};
+    document.wearer.axes = {LensAxis{-kMiddle, 0.0_m}, LensAxis{-kMiddle, 0.0_m}};
+    document.scene.scale.focalPixels = 1e3 * kDotsPerMm * (kWall + document.wearer.lensToPupil).si();
     document.seam.blending = blending;
-    const auto least = minimumBlurPower(eyeOptics(document.wearer), kSurface);
+    const auto least = minimumBlurPower(eyeOptics(document.wearer), kWall);
     if (!least) return tl::unexpected(least.error());
     document.alpha = power - *least;
     return document;
@@ -96,7 +96,7 @@ Result<SeamSeen> seamSeen(const Picture& picture, bool blurredInside, Dioptre po
     if (!seen) return tl::unexpected(seen.error());
     constexpr int kWindow = 5;  // half a letter
     const auto profile = lightAcross(*seen, plainView(*document, 1.0), kWindow);
-    const int border = picture.width() / 2, reach = static_cast<int>(10.0 * kPixelsPerMm);
+    const int border = picture.width() / 2, reach = static_cast<int>(10.0 * kDotsPerMm);
     return SeamSeen{weberAt(profile, border, reach), toSrgb8(*seen)};
 }
 

@@ -125,13 +125,13 @@ void printCsv(const Document& document, const Line& line) {
 
 Json asJson(const Document& document, const Line& line) {
     const auto middle = middleOf(line.now.to);
-    Json json{{"time_s", line.time.si()},      {"region", nameOf(document, line.now.region)},
+    Json said{{"time_s", line.time.si()},      {"region", nameOf(document, line.now.region)},
               {"state", word(line.now.state)}, {"confidence", line.now.confidence},
               {"fade", line.now.fade},         {"middle_px", {middle.x, middle.y}},
               {"motion", line.motion.m}};
-    if (line.error_px) json["error_px"] = *line.error_px;
-    if (line.ahead_px) json["error_of_light_px"] = *line.ahead_px;
-    return json;
+    if (line.error_px) said["error_px"] = *line.error_px;
+    if (line.ahead_px) said["error_of_light_px"] = *line.ahead_px;
+    return said;
 }
 
 struct Sum {
@@ -203,9 +203,9 @@ Result<void> tracked(const TrackOptions& options) {
     }
     if (!frame) return tl::unexpected(frame.error());
     if (options.json) {
-        Json json{{"source", options.source}, {"lines", std::move(lines)}, {"following", following}, {"of", all}};
-        if (truth) json["error"] = seen.json(), json["error_of_light"] = lit.json();
-        std::cout << json.dump(2) << '\n';
+        Json said{{"source", options.source}, {"lines", std::move(lines)}, {"following", following}, {"of", all}};
+        if (truth) said["error"] = seen.json(), said["error_of_light"] = lit.json();
+        std::cout << said.dump(2) << '\n';
     }
     return {};
 }

@@ -21,7 +21,7 @@ constexpr milliseconds kBack{1500}, kLongestBack{30000};
 constexpr milliseconds kReady{3000}, kEmulatedReady{12000};
 // By then a process has its lock, or has failed.
 constexpr milliseconds kBegun{1500};
-constexpr milliseconds kStopTime{3000};
+constexpr milliseconds kDevicesStopTime{3000};
 constexpr const char* kUsbPreload = "libumockdev-preload.so.0";
 
 /// What must be loaded before the C library for an emulated bus, after what already is (a sanitizer insists on that).
@@ -102,7 +102,7 @@ void DevicesKeeper::stop() {
     const auto lock = devices::devicesLock(setup_.runtimeDirectory);
     if (const auto pid = devices::FileLock::holder(lock); pid && *pid > 0) {
         kill(*pid, SIGTERM);
-        within(kStopTime, [&] { return !devices::FileLock::holder(lock); });
+        within(kDevicesStopTime, [&] { return !devices::FileLock::holder(lock); });
     }
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kBetweenStarts{1000}, kStopTime{2000};
+constexpr milliseconds kBetweenStarts{1000}, kGuardStopTime{2000};
 
 std::filesystem::path noteOf(const std::filesystem::path& directory) { return directory / "guard.rig"; }
 
@@ -30,7 +30,7 @@ void GuardKeeper::stopGuard(const std::filesystem::path& runtimeDirectory) {
     const auto pid = devices::FileLock::holder(lock);
     if (!pid || *pid <= 0) return;
     kill(*pid, SIGTERM);
-    if (!within(kStopTime, [&] { return !devices::FileLock::holder(lock); })) kill(*pid, SIGKILL);
+    if (!within(kGuardStopTime, [&] { return !devices::FileLock::holder(lock); })) kill(*pid, SIGKILL);
 }
 
 void GuardKeeper::watch(const Environment& environment) {

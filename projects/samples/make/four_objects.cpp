@@ -8,14 +8,14 @@
 namespace ilf::samples {
 namespace {
 
-// World: metres, the wearer's pupil at the origin, y up. The view looks down on a long table by kPitch.
-constexpr float kPitch = 0.205f;
+// World: metres, the wearer's pupil at the origin, y up. The view looks down on a long table by kPosterPitch.
+constexpr float kPosterPitch = 0.205f;
 constexpr float kTable = -0.130f;
 
 /// Where a toy stands so that its point `height` above the table lies `distance` from the lens along the view axis.
 V3 standing(float distance, float x, float height) {
     const float y = kTable + height;
-    return {x, kTable, -(distance + kLensToPupil + y * std::sin(kPitch)) / std::cos(kPitch)};
+    return {x, kTable, -(distance + kLensToPupil + y * std::sin(kPosterPitch)) / std::cos(kPosterPitch)};
 }
 
 using Shape = std::function<float(V3)>;
@@ -205,7 +205,7 @@ void addRocket(std::vector<Object>& objects, const Toy& toy) {
 Scene fourObjects() {
     Scene scene;
     scene.name = "four-objects";
-    scene.camera.target = {0.0f, -std::sin(kPitch), -std::cos(kPitch)};
+    scene.camera.target = {0.0f, -std::sin(kPosterPitch), -std::cos(kPosterPitch)};
     scene.boundsLow = {-1.7f, -0.6f, -2.1f};
     scene.boundsHigh = {1.7f, 1.7f, 0.4f};
     scene.occlusionReach = 0.045f;

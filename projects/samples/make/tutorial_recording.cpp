@@ -9,7 +9,7 @@ namespace ilf::samples {
 namespace {
 
 // World: metres, the wearer's pupil at the origin, y up; the wearer stands and looks down on a bench.
-constexpr float kPitch = 0.92f;
+constexpr float kBenchPitch = 0.92f;
 constexpr float kBench = -0.49f;
 
 using Shape = std::function<float(V3)>;
@@ -315,7 +315,7 @@ void addScrews(std::vector<Object>& objects) {
 Scene tutorialRecording() {
     Scene scene;
     scene.name = "tutorial-recording";
-    scene.camera.target = {0.0f, -std::sin(kPitch), -std::cos(kPitch)};
+    scene.camera.target = {0.0f, -std::sin(kBenchPitch), -std::cos(kBenchPitch)};
     scene.boundsLow = {-0.8f, -0.55f, -1.0f};
     scene.boundsHigh = {0.8f, 0.9f, 0.3f};
     scene.occlusionReach = 0.03f;
