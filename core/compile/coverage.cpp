@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <utility>
 
 #include "core/compile/patch.h"
 
 namespace ilf {
-
-namespace {
-
-/// Above this many camera pixels a projector pixel, supersampling stops growing: 8 x 8 samples a pixel.
-constexpr int kMaxSamples = 8;
-
-}  // namespace
 
 CoverageSampler::CoverageSampler(Size picture, Size projector,
                                  const Homography<ProjectorFrame, CameraFrame>& projectorFromCamera)
@@ -80,18 +74,22 @@ PixelRect<CameraFrame> CoverageSampler::source(int column, int row) const {
         const auto [y0, y1] = span(down_, row);
         return {x0, y0, x1, y1};
     }
+    const auto& m = cameraFromProjector_.m;
     double x0 = 1e9, y0 = 1e9, x1 = -1e9, y1 = -1e9;
     for (const int dy : {0, kTile}) {
         for (const int dx : {0, kTile}) {
-            const Point<CameraFrame> p = cameraFromProjector_(
-                Point<ProjectorFrame>{static_cast<double>(column * kTile + dx), static_cast<double>(row * kTile + dy)});
+            const Point<ProjectorFrame> q{static_cast<double>(column * kTile + dx),
+                                          static_cast<double>(row * kTile + dy)};
+            if (m[6] * q.x + m[7] * q.y + m[8] <= 0.0) return {0, 0, picture_.width, picture_.height};
+            const Point<CameraFrame> p = cameraFromProjector_(q);
             x0 = std::min(x0, p.x), x1 = std::max(x1, p.x);
             y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
         }
     }
-    // One more on each side for the interpolation; clipping keeps a wild registration from asking for the moon.
+    // Interpolation reads one more on each side, which depends on its neighbours; clipping keeps a wild registration
+    // from asking for the moon.
     const auto whole = [](double v) { return static_cast<int>(std::clamp(std::floor(v), -1e8, 1e8)); };
-    return PixelRect<CameraFrame>{whole(x0) - 1, whole(y0) - 1, whole(x1) + 2, whole(y1) + 2};
+    return PixelRect<CameraFrame>{whole(x0) - 2, whole(y0) - 2, whole(x1) + 3, whole(y1) + 3};
 }
 
 Box<Tile> CoverageSampler::tile(const Mask& mask, int column, int row) const {
@@ -101,10 +99,9 @@ Box<Tile> CoverageSampler::tile(const Mask& mask, int column, int row) const {
     if (inside.empty()) return uniformTile(0);
     const std::optional<std::uint8_t> same = uniformOver(mask, inside);
     if (same && (*same == 0 || inside == needed)) return uniformTile(*same);
-    const PixelRect<CameraFrame> at = axisAligned_ ? needed : inside.grown(2);
-    const std::vector<std::uint8_t> pixels = gatheredOrZero(mask, at);
-    if (dense_) return boxed(dense_->tile(pixels, at, column, row));
-    return boxed(axisAligned_ ? separable(pixels, at, column, row) : supersampled(pixels, at, column, row));
+    if (axisAligned_) return boxed(separable(gatheredOrZero(mask, needed), needed, column, row));
+    const MaskPatch patch(mask, inside.grown(2));
+    return boxed(dense_ ? dense_->tile(patch, column, row) : projected(patch, column, row));
 }
 
 Tile CoverageSampler::separable(const std::vector<std::uint8_t>& pixels, PixelRect<CameraFrame> at, int column,
@@ -144,37 +141,51 @@ Tile CoverageSampler::separable(const std::vector<std::uint8_t>& pixels, PixelRe
     return tile;
 }
 
-Tile CoverageSampler::supersampled(const std::vector<std::uint8_t>& pixels, PixelRect<CameraFrame> at, int column,
-                                   int row) const {
+Tile CoverageSampler::projected(const MaskPatch& patch, int column, int row) const {
     const auto& m = cameraFromProjector_.m;
+    const auto inFront = [&](Point<ProjectorFrame> q) { return m[6] * q.x + m[7] * q.y + m[8] > 0.0; };
     const double cx = column * kTile + kTile / 2.0, cy = row * kTile + kTile / 2.0;
     const Point<CameraFrame> p0 = cameraFromProjector_(Point<ProjectorFrame>{cx, cy});
     const Point<CameraFrame> px = cameraFromProjector_(Point<ProjectorFrame>{cx + 1, cy});
     const Point<CameraFrame> py = cameraFromProjector_(Point<ProjectorFrame>{cx, cy + 1});
     const double scale = std::max(std::hypot(px.x - p0.x, px.y - p0.y), std::hypot(py.x - p0.x, py.y - p0.y));
-    const int n = std::clamp(static_cast<int>(std::ceil(scale - 1e-6)), 1, kMaxSamples);
-    const auto width = static_cast<std::size_t>(at.width());
-    const auto value = [&](double x, double y) {  // bilinear, 0..255, in camera pixels
-        const double fx = x - 0.5 - at.x0, fy = y - 0.5 - at.y0;
-        if (!(fx >= 0.0 && fy >= 0.0 && fx < at.width() - 1 && fy < at.height() - 1)) return 0.0;
-        const auto ix = static_cast<std::size_t>(fx), iy = static_cast<std::size_t>(fy);
-        const double ax = fx - static_cast<double>(ix), ay = fy - static_cast<double>(iy);
-        const std::uint8_t* p = &pixels[iy * width + ix];
-        return (p[0] * (1 - ax) + p[1] * ax) * (1 - ay) + (p[width] * (1 - ax) + p[width + 1] * ax) * ay;
-    };
+    const Sampling sampling =
+        samplingFor(pointsFor(scale), std::hypot(px.x - p0.x, py.x - p0.x), std::hypot(px.y - p0.y, py.y - p0.y));
+
     Tile tile;
-    for (int y = 0; y < kTile; ++y) {
-        for (int x = 0; x < kTile; ++x) {
-            double sum = 0.0;
-            for (int j = 0; j < n; ++j) {
-                for (int i = 0; i < n; ++i) {
-                    const double qx = column * kTile + x + (i + 0.5) / n, qy = row * kTile + y + (j + 0.5) / n;
-                    const double w = m[6] * qx + m[7] * qy + m[8];
-                    if (w <= 0.0) continue;  // behind the horizon of the registration: not in the picture
-                    sum += value((m[0] * qx + m[1] * qy + m[2]) / w, (m[3] * qx + m[4] * qy + m[5]) / w);
+    for (int top = 0; top < kTile; top += kSquare) {
+        for (int left = 0; left < kTile; left += kSquare) {
+            const double x0 = column * kTile + left, y0 = row * kTile + top;
+            std::uint8_t* to = &tile.at(left, top);
+            bool front = true;
+            double minX = 1e8, minY = 1e8, maxX = -1e8, maxY = -1e8;
+            for (const double dy : {0, kSquare}) {
+                for (const double dx : {0, kSquare}) {
+                    const Point<ProjectorFrame> q{x0 + dx, y0 + dy};
+                    front = front && inFront(q);
+                    const auto p = cameraFromProjector_(q);
+                    minX = std::min(minX, p.x), maxX = std::max(maxX, p.x);
+                    minY = std::min(minY, p.y), maxY = std::max(maxY, p.y);
                 }
             }
-            tile.at(x, y) = static_cast<std::uint8_t>(std::lround(sum / (n * n)));
+            const auto whole = [](double v) { return static_cast<int>(std::clamp(std::floor(v), -1e8, 1e8)); };
+            const PixelRect<CameraFrame> touched{whole(minX) - 2, whole(minY) - 2, whole(maxX) + 3, whole(maxY) + 3};
+            if (const auto same = front ? patch.flatOver(touched) : std::nullopt) {
+                for (int y = 0; y < kSquare; ++y)
+                    std::memset(to + y * kTile, *same, kSquare);
+                continue;
+            }
+            constexpr int kSide = kSquare + 2;
+            constexpr float kFar = -1e6F;  // behind the horizon of the registration: not in the picture
+            std::array<float, std::size_t{2} * kSide * kSide> places;
+            for (int i = 0; i < kSide * kSide; ++i) {
+                const Point<ProjectorFrame> q{x0 + i % kSide - 0.5, y0 + i / kSide - 0.5};
+                const auto p = cameraFromProjector_(q);
+                const auto at = static_cast<std::size_t>(2 * i);
+                places[at] = inFront(q) ? static_cast<float>(p.x) : kFar;
+                places[at + 1] = inFront(q) ? static_cast<float>(p.y) : kFar;
+            }
+            coverSquare(patch, sampling, &places[2 * (kSide + 1)], 2 * kSide, to);
         }
     }
     return tile;

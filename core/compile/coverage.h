@@ -38,7 +38,7 @@ private:
     };
     static Taps taps(int pixels, double scale, double offset);
     Tile separable(const std::vector<std::uint8_t>& pixels, PixelRect<CameraFrame> at, int column, int row) const;
-    Tile supersampled(const std::vector<std::uint8_t>& pixels, PixelRect<CameraFrame> at, int column, int row) const;
+    Tile projected(const MaskPatch& patch, int column, int row) const;
 
     Size picture_, projector_;
     PixelMap map_;
