@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/calib3d.hpp>
-#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/video/tracking.hpp>
 #include <string>
 
 #include "core/track/planar_cv.h"
@@ -21,21 +18,13 @@ constexpr double kLeastSpread = 0.12;
 /// Of cornerMinEigenVal on 8 bits, blurred: several times what noise of 3 grey values makes.
 constexpr double kLeastTexture = 2e-4;
 constexpr int kPatternFeatures = 500;
-constexpr int kFrameFeatures = 900;
-/// A wider picture is looked through shrunk to this: features larger than that are what a thing is told by.
-constexpr int kSearchWidth = 640;
-constexpr double kRatio = 0.8;  // D. Lowe, "Distinctive image features from scale-invariant keypoints", IJCV 2004
-constexpr int kFewestMatches = 10;
-
-cv::Ptr<cv::ORB> detector(int features) {
-    return cv::ORB::create(features, 1.2F, 8, 15, 0, 2, cv::ORB::HARRIS_SCORE, 31, 10);
-}
 
 Point<CameraFrame> toPicture(const cv::Point2f& p, const PixelRect<CameraFrame>& patch) {
     return {static_cast<double>(p.x) + 0.5 + patch.x0, static_cast<double>(p.y) + 0.5 + patch.y0};
 }
 
-/// A thing that is neither turned inside out nor seen edge-on, nor many times larger or smaller than it was.
+}  // namespace
+
 bool plausible(const PlanarPattern& pattern, const Motion& motion) {
     const Quad before = cornersOf(pattern.patch);
     for (const auto& p : before) {
@@ -52,8 +41,6 @@ bool plausible(const PlanarPattern& pattern, const Motion& motion) {
     }
     return true;
 }
-
-}  // namespace
 
 Result<Box<PlanarPattern>> planarPattern(const Image<std::uint8_t>& grey, const PixelRect<CameraFrame>& patch) {
     if (grey.empty() || patch.clipped(grey.size()) != patch || patch.width() < 16 || patch.height() < 16) {
@@ -90,60 +77,18 @@ Result<Box<PlanarPattern>> planarPattern(const Image<std::uint8_t>& grey, const 
         for (const auto& p : points)
             pattern.points.push_back(toPicture(p, patch));
 
-        std::vector<cv::KeyPoint> keys;
-        cv::Mat descriptors;
-        detector(kPatternFeatures)->detectAndCompute(picture, cv::noArray(), keys, descriptors);
-        for (const auto& key : keys)
-            pattern.features.push_back(toPicture(key.pt, patch));
-        if (!keys.empty()) {
+        const Features features = featuresOf(picture, kPatternFeatures, 0, kLevels);
+        for (const auto& p : features.at)
+            pattern.features.push_back({p.x + patch.x0, p.y + patch.y0});
+        if (!features.at.empty()) {
+            const cv::Mat& rows = features.descriptors;
             pattern.descriptors =
-                Image<std::uint8_t>({descriptors.cols, descriptors.rows}, 1,
-                                    std::vector<std::uint8_t>(descriptors.datastart, descriptors.dataend));
+                Image<std::uint8_t>({rows.cols, rows.rows}, 1, std::vector<std::uint8_t>(rows.datastart, rows.dataend));
         }
     } catch (const cv::Exception& e) {
         return fail(Fault::unsupported, std::string("This part of the picture could not be learnt: ") + e.what());
     }
     return Box(std::move(pattern));
-}
-
-std::optional<SeenPlanar> findPlanar(const PlanarPattern& pattern, const Image<std::uint8_t>& grey) {
-    if (grey.empty() || pattern.features.size() < kFewestMatches) return std::nullopt;
-    try {
-        cv::Mat picture = viewOf(grey);
-        double scale = 1.0;
-        if (picture.cols > kSearchWidth) {
-            scale = static_cast<double>(kSearchWidth) / picture.cols;
-            cv::Mat small;
-            cv::resize(picture, small, {}, scale, scale, cv::INTER_AREA);
-            picture = small;
-        }
-        std::vector<cv::KeyPoint> keys;
-        cv::Mat descriptors;
-        detector(kFrameFeatures)->detectAndCompute(picture, cv::noArray(), keys, descriptors);
-        if (keys.size() < 2) return std::nullopt;
-        std::vector<std::vector<cv::DMatch>> matches;
-        cv::BFMatcher(cv::NORM_HAMMING).knnMatch(viewOf(pattern.descriptors), descriptors, matches, 2);
-        std::vector<cv::Point2f> from, to;
-        for (const auto& pair : matches) {
-            if (pair.size() < 2 ||
-                static_cast<double>(pair[0].distance) > kRatio * static_cast<double>(pair[1].distance))
-                continue;
-            from.push_back(asCv(pattern.features[static_cast<std::size_t>(pair[0].queryIdx)]));
-            const cv::Point2f at = keys[static_cast<std::size_t>(pair[0].trainIdx)].pt;
-            to.emplace_back(static_cast<float>((static_cast<double>(at.x) + 0.5) / scale),
-                            static_cast<float>((static_cast<double>(at.y) + 0.5) / scale));
-        }
-        if (from.size() < kFewestMatches) return std::nullopt;
-        cv::Mat inliers;
-        const cv::Mat h = cv::findHomography(from, to, cv::RANSAC, 3.0 / scale, inliers, 1000, 0.995);
-        if (h.empty() || cv::countNonZero(inliers) < kFewestMatches) return std::nullopt;
-        const Motion rough = asMotion(h);
-        if (!plausible(pattern, rough)) return std::nullopt;
-        const auto once = followPlanar(pattern, grey, rough);
-        return once ? followPlanar(pattern, grey, once->motion) : std::nullopt;
-    } catch (const cv::Exception&) {
-        return std::nullopt;  // degenerate matches: not seen
-    }
 }
 
 std::optional<SeenPlanar> followPlanar(const PlanarPattern& pattern, const Image<std::uint8_t>& grey,

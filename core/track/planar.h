@@ -33,13 +33,31 @@ struct SeenPlanar {
     double rms_px = 0.0;  ///< of the inliers
 };
 
-/// Anywhere in the picture, by ORB features and a robust homography, then as `followPlanar` from there. Some 10 ms.
-std::optional<SeenPlanar> findPlanar(const PlanarPattern& pattern, const Image<std::uint8_t>& grey);
-
 /// Near where it is thought to be: the pattern is drawn as it should look there, optical flow (pyramidal Lucas-Kanade)
 /// tells how far each point is off, and a robust homography is fitted to what they say. Since the pattern itself is
 /// compared, never the frame before, errors do not add up. Follows up to some 20 px of error in `near`.
 std::optional<SeenPlanar> followPlanar(const PlanarPattern& pattern, const Image<std::uint8_t>& grey,
                                        const Motion& near);
+
+/// A search anywhere in a picture, shared out over the pictures that come, since all of it takes longer than one may.
+/// The first picture is kept, small: three looks find its ORB features, from the finest on, and what they resemble
+/// most in the pattern, then a robust homography; the fourth follows in the newest picture from there.
+struct PlanarSearch {
+    static constexpr int kLooks = 4;
+    int look = 0;              ///< the next one
+    Image<std::uint8_t> kept;  ///< of the first look
+    double scale = 1.0;        ///< its pixels over the picture's
+    struct Nearest {
+        double best = 1e9, second = 1e9;  ///< bits that differ
+        Point<CameraFrame> at;            ///< of the best, in the picture
+    };
+    std::vector<Nearest> nearest;  ///< of each of the pattern's features
+    Motion rough;                  ///< before the last look
+};
+
+/// One look of such a search, which begins anew after the last one and when nothing is there. A target that is in
+/// sight, and moves less than some 20 px from the first look to the last, is seen by the last one.
+std::optional<SeenPlanar> lookedFor(PlanarSearch& search, const PlanarPattern& pattern,
+                                    const Image<std::uint8_t>& grey);
 
 }  // namespace ilf

@@ -12,11 +12,11 @@ namespace ilf {
 
 namespace {
 
-/// Looking for a flat thing everywhere takes 10 ms, and patience is half a second: so often is enough.
-constexpr Second kEverywhere = 90.0_ms;
 /// A camera that gives few pictures is silent, and forgets, only after so many of its pauses; a slower one is none.
 constexpr double kFewPictures = 2.5;
 constexpr Second kSlowest = 1.0_s;
+/// Pictures that come so seldom leave time for all looks of a search at once, some 15 ms.
+constexpr Second kSeldom = 90.0_ms;
 /// Around where a marker is predicted: half its size, for what hands do between frames, but so much at least.
 constexpr int kLeastMargin_px = 32;
 
@@ -42,13 +42,6 @@ const SeenMarker* chosen(const std::vector<SeenMarker>& seen, int id, const std:
         if (marker.id == id && (best == nullptr || worse(*best, marker))) best = &marker;
     }
     return best;
-}
-
-/// Whether it is time for another look at all of a picture, which then counts as taken.
-bool due(std::optional<Second>& last, Second now) {
-    if (last && now - *last < kEverywhere) return false;
-    last = now;
-    return true;
 }
 
 std::string nameOf(const MarkerTarget& marker) { return marker.dictionary + " number " + std::to_string(marker.id); }
@@ -212,12 +205,15 @@ void RegionTracker::seeMarkers(const Image<std::uint8_t>& grey, Second exposed, 
 }
 
 void RegionTracker::seePlanar(Followed& one, const Image<std::uint8_t>& grey, Second exposed, Second now) {
-    std::optional<SeenPlanar> found;
-    if (const auto quad = expected(one, exposed)) {
-        const auto near = motionBetween(one.from, *quad);
-        if (near) found = followPlanar(**one.pattern, grey, *near);
-    }
-    if (!found && due(one.soughtEverywhere, now)) found = findPlanar(**one.pattern, grey);
+    // A picture in which it was not where it was expected is not searched too, which would take too long: the next is.
+    const auto quad = one.inVain ? std::nullopt : expected(one, exposed);
+    const auto near = quad ? motionBetween(one.from, *quad) : std::nullopt;
+    const int looks = near ? 0 : between_ < kSeldom ? 1 : PlanarSearch::kLooks;
+    auto found = near ? followPlanar(**one.pattern, grey, *near) : std::nullopt;
+    for (int i = 0; i < looks && !found; ++i)
+        found = lookedFor(one.search, **one.pattern, grey);
+    one.inVain = near && !found;
+    if (found) one.search = {};
     step(one, found ? std::optional(Observation{exposed, found->motion, found->confidence}) : std::nullopt, now);
 }
 

@@ -76,9 +76,10 @@ private:
         std::optional<Box<PlanarPattern>> pattern;
         Follower follower;
         CornerTrack track;
-        Quad now{}, speed{};                     ///< as last given
-        std::optional<Second> asked;             ///< when it last could have been seen
-        std::optional<Second> soughtEverywhere;  ///< a flat target
+        Quad now{}, speed{};          ///< as last given
+        std::optional<Second> asked;  ///< when it last could have been seen
+        PlanarSearch search;          ///< for a flat target
+        bool inVain = false;          ///< it was not where it was expected in the last picture
     };
     std::optional<Quad> expected(const Followed& one, Second at) const;  ///< where to look first
     Second patience(Second usual) const;                                 ///< or some pictures' time

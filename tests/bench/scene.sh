@@ -8,7 +8,7 @@ out=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# What is measured | program | case | figure to reach, ms | beside it | its case | error's counter | its unit; no commas.
+# What is measured | program | case (its time, or CASE@COUNTER) | figure to reach, ms | beside it | its case | error's counter | its unit; no commas.
 rows=$(cat <<'ROWS'
 42 pictures of 1280 x 1024 decoded|scan|decodeOurs|120|OpenCV at white > black + 5|decodeOpenCv/5/5|rms_px|px rms
 42 pictures beside its users' setting|scan|decodeOurs|120|OpenCV at white > black + 40|decodeOpenCv/40/5|rms_px|px rms
@@ -19,7 +19,8 @@ depth from a scan of 1280 x 1024|triangulate|depthFromScan/whole:0||OpenCV: tria
 ToyCar: file to depth|solid|toycar/load-and-depth/1280x1024|300|loaded with its pictures|toycar/load/textures||as drawn below
 ToyCar: drawn to depth|solid|toycar/depth/tiles||a loop over boxes|toycar/depth/plain-loop|error|um at the worst ray
 marker in its window|track|markerInWindow|8|OpenCV in the whole frame|openCvInWholeFrame|worst_corner_mean_px|px worst corner
-lost marker: one picture's part|track|markerLostPart|8|OpenCV in the whole frame|openCvInWholeFrame|worst_corner_mean_px|px worst corner
+lost marker: the longest part|track|markerLostPart@worst_ms|8|OpenCV in the whole frame|openCvInWholeFrame|worst_corner_mean_px|px worst corner
+lost flat target: the longest look|track|planarLostLook@worst_ms|8|all looks at once|planarFoundAnywhere|worst_corner_mean_px|px worst corner
 flat target followed|track|planarFollowed|8|found anywhere|planarFoundAnywhere|worst_corner_mean_px|px worst corner
 surface by a click on 640 x 480|scene|selectByDepth||flood by 2 % of depth|selectFlood|error|% of pixels
 bump check of 1280 x 720|scene|bumpCheck||optical flow|bumpFlow|error|px farthest corner
@@ -46,7 +47,9 @@ value() {
 {
     echo "what,ms,figure_ms,beside,beside_ms,ratio,error,beside_error,unit"
     while IFS='|' read -r what program name figure beside other counter unit; do
-        ms=$(value "$program" "$name" ms) least=$(value "$program" "$other" ms)
+        field=ms
+        case $name in *@*) field=${name#*@} name=${name%@*} ;; esac
+        ms=$(value "$program" "$name" "$field") least=$(value "$program" "$other" ms)
         error='' theirs=''
         [ -z "$counter" ] || error=$(value "$program" "$name" "$counter") theirs=$(value "$program" "$other" "$counter")
         awk -v OFS=, -v what="$what" -v ms="$ms" -v figure="$figure" -v beside="$beside" -v other="$least" -v error="$error" \

@@ -172,14 +172,20 @@ Motion swayed(int i) {
     return {{c, -s, 3.3 * i + 360 * s, s, c, 1.7 * i - 160 * s, 2e-5 * i, 0, 1}};
 }
 
-void planar(benchmark::State& state, bool anywhere) {
-    cv::setNumThreads(1);
+const std::vector<Image<std::uint8_t>>& pages() {
     static const auto frames = [] {
         std::vector<Image<std::uint8_t>> made;
         for (int i = 0; i < kFrames; ++i)
             made.push_back(page(swayed(i), static_cast<unsigned>(i + 1)));
         return made;
     }();
+    return frames;
+}
+
+/// `anywhere`: all looks of a search in one picture.
+void planar(benchmark::State& state, bool anywhere) {
+    cv::setNumThreads(1);
+    const auto& frames = pages();
     const auto pattern = planarPattern(frames[0], {400, 180, 880, 540});
     if (!pattern) return state.SkipWithError(pattern.error().what.c_str());
     const Quad corners = cornersOf((*pattern)->patch);
@@ -188,12 +194,41 @@ void planar(benchmark::State& state, bool anywhere) {
     for (auto _ : state) {
         const int frame = i++ % kFrames;
         const auto& grey = frames[static_cast<std::size_t>(frame)];
-        const auto seen =
-            anywhere ? findPlanar(**pattern, grey) : followPlanar(**pattern, grey, swayed(std::max(0, frame - 1)));
+        std::optional<SeenPlanar> seen;
+        PlanarSearch search;
+        if (!anywhere) seen = followPlanar(**pattern, grey, swayed(std::max(0, frame - 1)));
+        for (int look = 0; anywhere && look < PlanarSearch::kLooks; ++look)
+            seen = lookedFor(search, **pattern, grey);
         ++offs.asked;
         if (seen) offs.add(moved(corners, swayed(frame)), moved(corners, seen->motion));
     }
     offs.report(state);
+}
+
+/// A lost flat thing: each picture's look of the search, while it sways on. `worst_ms`: the longest of them.
+void planarLostLook(benchmark::State& state) {
+    cv::setNumThreads(1);
+    const auto& frames = pages();
+    const auto pattern = planarPattern(frames[0], {400, 180, 880, 540});
+    if (!pattern) return state.SkipWithError(pattern.error().what.c_str());
+    const Quad corners = cornersOf((*pattern)->patch);
+    std::array<double, PlanarSearch::kLooks> least{};
+    least.fill(1e9);
+    Offs offs;
+    PlanarSearch search;
+    int i = 0;
+    for (auto _ : state) {
+        const int frame = i++ % kFrames;
+        const auto look = static_cast<std::size_t>(search.look);
+        const auto start = std::chrono::steady_clock::now();
+        const auto seen = lookedFor(search, **pattern, frames[static_cast<std::size_t>(frame)]);
+        const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+        least[look] = std::min(least[look], took.count());
+        offs.asked += look == PlanarSearch::kLooks - 1 ? 1 : 0;
+        if (seen) offs.add(moved(corners, swayed(frame)), moved(corners, seen->motion));
+    }
+    offs.report(state);
+    state.counters["worst_ms"] = *std::ranges::max_element(least);
 }
 
 void planarFollowed(benchmark::State& state) { planar(state, false); }
@@ -214,6 +249,7 @@ BENCHMARK(markerLostPart)->Unit(benchmark::kMillisecond);
 BENCHMARK(markerInWholeFrameAtHalfSize)->Unit(benchmark::kMillisecond);
 BENCHMARK(markerInWholeFrame)->Unit(benchmark::kMillisecond);
 BENCHMARK(openCvInWholeFrame)->Unit(benchmark::kMillisecond);
+BENCHMARK(planarLostLook)->Unit(benchmark::kMillisecond);
 BENCHMARK(planarFollowed)->Unit(benchmark::kMillisecond);
 BENCHMARK(planarFoundAnywhere)->Unit(benchmark::kMillisecond);
 BENCHMARK(movedMask)->Unit(benchmark::kMillisecond);
