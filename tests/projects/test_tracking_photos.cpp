@@ -6,7 +6,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <random>
 #include <regex>
 #include <string>
 #include <vector>
@@ -14,8 +13,7 @@
 #include "core/track/follower.h"
 #include "core/track/marker.h"
 #include "core/track/planar.h"
-#include "tests/core/track/drawn_marker.h"
-#include "tests/projects/pattern_judge.h"
+#include "tests/support/pattern_judge.h"
 #include "tests/support/test_data.h"
 
 namespace ilf {
@@ -125,34 +123,6 @@ struct Judged {
 };
 
 }  // namespace
-
-TEST_CASE(
-    "the judge of corners finds those of drawn markers, small, blurred by pixels and in noise, from half a pixel off") {
-    Errors errors;
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> one(-0.5, 0.5);
-    for (unsigned i = 0; i < 12; ++i) {
-        const double side = 17.0 + 2.0 * i, angle = one(random), shear = 0.5 * one(random);
-        const double c = side * std::cos(angle), s = side * std::sin(angle);
-        Quad truth{{{-0.5, -0.4}, {0.5, -0.4}, {0.5, 0.4}, {-0.5, 0.4}}}, start;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const double x = truth[k].x + shear * truth[k].y, y = truth[k].y;
-            truth[k] = {50.0 + c * x - s * y, 50.0 + s * x + c * y};
-            start[k] = {truth[k].x + one(random), truth[k].y + one(random)};
-        }
-        DrawnScene scene;
-        scene.size = {100, 100};
-        scene.noise = 2.0;
-        scene.seed = i + 1;
-        const auto grey = drawnMarker(scene, cv::aruco::DICT_APRILTAG_36h11, 0, truth);
-        const Quad found = PatternJudge(grey, cv::aruco::DICT_APRILTAG_36h11, 0, start).corners(start);
-        for (std::size_t k = 0; k < 4; ++k)
-            errors.all.push_back(std::hypot(found[k].x - truth[k].x, found[k].y - truth[k].y));
-    }
-    MESSAGE("rms ", errors.rms(), " px, worst ", errors.quantile(1.0));
-    CHECK(errors.rms() < 0.06);
-    CHECK(errors.quantile(1.0) < 0.2);
-}
 
 TEST_CASE("AprilTags in photographs: corners as the AprilTag program finds them") {
     struct Photo {
