@@ -5,6 +5,7 @@
 
 #include "projects/follow_json.h"
 #include "projects/pinhole_json.h"
+#include "projects/registration_json.h"
 
 namespace ilf::projects {
 namespace {
@@ -200,6 +201,11 @@ Json written(const Scene& scene, const ProjectNames& names, Json json) {
     } else {
         json.set("viewer", written(scene.viewer, json.object("viewer")));
     }
+    if (scene.camera == CameraMode{}) {
+        json.erase("camera");
+    } else {
+        json.set("camera", written(scene.camera, json.object("camera")));
+    }
     return json;
 }
 
@@ -212,6 +218,7 @@ void readScene(JsonReader reader, ProjectText& project) {
         scene.scale.source = static_cast<PixelScale::Source>(reader.choice("focal_source", kScaleSources));
     }
     if (reader.has("viewer")) scene.viewer = viewerFrom(reader.object("viewer"));
+    if (reader.has("camera")) scene.camera = cameraModeFrom(reader.object("camera"));
     const auto stepOf = [](JsonReader& depth) {
         const Metre step = Metre::fromSi(depth.number("metres_per_unit", 0.0));
         if (depth.has("metres_per_unit") && !(step > 0.0_m)) depth.complain("metres_per_unit", "must be more than 0.");

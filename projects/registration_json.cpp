@@ -35,6 +35,8 @@ double residual(JsonReader& reader, const char* key) {
     return value;
 }
 
+}  // namespace
+
 Json written(const CameraMode& camera, Json json) {
     json.set("device", camera.device);
     json.set("sensor", written(camera.sensor, json.object("sensor")));
@@ -58,8 +60,6 @@ CameraMode cameraModeFrom(JsonReader reader) {
     camera.picture = sizeFrom(reader, "picture");
     return camera;
 }
-
-}  // namespace
 
 Json written(const Registration& registration, Json json, const std::string& mapName) {
     json.set("method", kMethods[static_cast<std::size_t>(registration.method)]);

@@ -9,6 +9,10 @@
 
 namespace ilf::projects {
 
+/// How a camera's picture was cut out of its sensor.
+Json written(const CameraMode& camera, Json before);
+CameraMode cameraModeFrom(JsonReader reader);
+
 /// Gives the map of that name, from beside the file that names it.
 using MapReader = std::function<Result<Box<DenseMap>>(const std::string& name)>;
 

@@ -1,6 +1,5 @@
 #include "app/studio/camera_port.h"
 
-#include "app/studio/grabbed_rig.h"
 #include "devices/camera/list.h"
 #include "devices/camera/video_file.h"
 
@@ -61,12 +60,10 @@ Result<Scene> CameraPort::grabbed() const {
     scene.picture = Box(devices::asPicture(*frame_));
     scene.source = state.id;
     scene.scale = {focalPixels(scene.size().width, kDefaultFieldOfView), PixelScale::Source::assumed};
+    if (video_) return scene;  // its pictures may be of any camera
+    scene.camera = state.mode;
+    scene.camera.picture = scene.size();  // what a camera says of itself may be older than its newest picture
     return scene;
-}
-
-Result<Rig> CameraPort::rigForFrame(const Rig& rig) const {
-    if (!camera_ || !frame_ || video_) return rig;
-    return rigForGrabbed(rig, camera_->state().mode, frame_->rgb.size());
 }
 
 Result<void> CameraPort::toggleLock() {

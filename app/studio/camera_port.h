@@ -25,12 +25,9 @@ public:
     /// Takes what came since the last call; true if there is a new frame.
     bool collect();
     const devices::Frame& frame() const { return *frame_; }
-    /// The newest frame as a scene, for "grab"; refused when there is none or the camera is frozen.
+    /// The newest frame as a scene that says its camera's mode, for "grab"; refused when there is none or the camera is
+    /// frozen.
     Result<Scene> grabbed() const;
-
-    /// The rig for the newest frame, see `rigForGrabbed`. A video's pictures may be of any camera: the rig is as it
-    /// was.
-    Result<Rig> rigForFrame(const Rig& rig) const;
 
     Result<void> toggleLock();
     void toggleLive() { live_ = !live_ && camera_; }

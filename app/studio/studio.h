@@ -103,7 +103,6 @@ private:
     void takeBump();
     void followBump();
     void setScene(Scene scene);
-    Scene carriedOver(Scene scene) const;  ///< with what the scene before it knows and its picture does not change
     void take();
     void forgetTake();
     void sendIfDue();

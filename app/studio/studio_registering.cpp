@@ -3,7 +3,9 @@
 
 #include "app/studio/studio.h"
 #include "core/base/as_text.h"
+#include "core/document/picture_change.h"
 #include "core/optics/eye.h"
+#include "core/registration/convert.h"
 #include "devices/camera/list.h"
 #include "ui/register_page.h"
 
@@ -134,20 +136,35 @@ void Studio::writeRegistration(const Registrar::ToWrite& found) {
     if (found.registration) rig.registration = found.registration;
     if (found.calibration) rig.calibration = found.calibration;
     using When = ui::EditRequest::When;
-    if (const auto done = editor_.handle({When::preview, SetRig{rig}}); !done)
-        return say(done.error().what, ui::Tone::warning);
+    const CameraMode scenes = pictureMode(editor_.document());
+    bool sceneIsIt = false;
     if (!found.picture.empty()) {
         Scene scene;
         scene.picture = Box(devices::asPicture({rgbOf(found.picture), {}, 0, 0.0}));
         scene.source = found.registration->camera.device;
         scene.scale = {focalPixels(scene.size().width, kDefaultFieldOfView), PixelScale::Source::assumed};
-        scene = carriedOver(std::move(scene));
+        scene.camera = found.registration->camera;
+        scene = carriedOver(editor_.document(), std::move(scene));
         if (found.depth) {
             scene.scale = {found.depth->camera.fx, PixelScale::Source::calibrated};
             scene.measured = found.depth;
         }
-        if (const auto done = editor_.handle({When::preview, SetScene{std::move(scene)}}); !done)
-            say(done.error().what, ui::Tone::warning);
+        const auto done = editor_.handle({When::preview, SetScene{std::move(scene)}});
+        sceneIsIt = done.has_value();
+        if (!done) say("The picture did not become the scene. " + done.error().what, ui::Tone::warning);
+    }
+    if (found.registration && !sceneIsIt && scenes.device == found.registration->camera.device) {
+        // Regions lie on the scene's picture, so that is what the map must be of.
+        if (auto fitting = convertedTo(*rig.registration, scenes)) {
+            rig.registration = Box(*std::move(fitting));
+        } else {
+            say(fitting.error().what + " The scene's picture is of another mode: grab it anew (F5).",
+                ui::Tone::warning);
+        }
+    }
+    if (const auto done = editor_.handle({When::preview, SetRig{rig}}); !done) {
+        editor_.cancelGesture();
+        return say(done.error().what, ui::Tone::warning);
     }
     editor_.commitGesture(found.registration ? "Register camera" : "Calibrate camera and projector");
     registered_ = registered_ || static_cast<bool>(found.registration);

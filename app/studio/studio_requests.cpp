@@ -4,8 +4,10 @@
 
 #include "app/pictures_of.h"
 #include "app/studio/eye_view.h"
+#include "app/studio/grabbed_rig.h"
 #include "app/studio/studio.h"
 #include "core/base/srgb.h"
+#include "core/document/picture_change.h"
 #include "projects/pictures.h"
 #include "projects/wearer_rig.h"
 
@@ -159,20 +161,7 @@ void Studio::on(const ui::SaveRig& request) {
         written ? ui::Tone::note : ui::Tone::error);
 }
 
-void Studio::setScene(Scene scene) { edit(SetScene{carriedOver(std::move(scene))}); }
-
-Scene Studio::carriedOver(Scene scene) const {
-    const Scene& now = editor_.document().scene;
-    if (scene.size() == now.size()) {
-        scene.depth = now.depth;
-        scene.measured = now.measured;
-        if (now.scale.source != PixelScale::Source::assumed && scene.scale.source == PixelScale::Source::assumed) {
-            scene.scale = now.scale;
-        }
-    }
-    scene.viewer = now.viewer;
-    return scene;
-}
+void Studio::setScene(Scene scene) { edit(SetScene{carriedOver(editor_.document(), std::move(scene))}); }
 
 void Studio::on(const ui::SaveFile& request) { save(request.path); }
 
@@ -218,15 +207,17 @@ void Studio::on(const ui::SeekVideo& request) { camera_.seek(request.position); 
 void Studio::grab() {
     auto scene = camera_.grabbed();
     if (!scene) return say(scene.error().what, ui::Tone::warning);
-    auto rig = camera_.rigForFrame(editor_.document().rig);
-    if (!rig) return say(rig.error().what, ui::Tone::warning);
-    if (rig->registration.same(editor_.document().rig.registration)) return setScene(*std::move(scene));
-    for (Edit one : {Edit{SetRig{*std::move(rig)}}, Edit{SetScene{carriedOver(*std::move(scene))}}}) {
-        if (const auto done = editor_.handle({ui::EditRequest::When::preview, std::move(one)}); !done)
-            say(done.error().what, ui::Tone::warning);
+    auto grab = grabbed(editor_.document(), *std::move(scene));
+    if (!grab) return say(grab.error().what, ui::Tone::warning);
+    const bool several = grab->edits.size() > 1;
+    for (Edit& one : grab->edits) {
+        if (const auto done = editor_.handle({ui::EditRequest::When::preview, std::move(one)}); !done) {
+            editor_.cancelGesture();
+            return say(done.error().what, ui::Tone::warning);
+        }
     }
-    editor_.commitGesture("Grab");
-    say("The camera's mode has changed: the registration was converted to it.", ui::Tone::note);
+    editor_.commitGesture(several ? "Grab" : label(SetScene{}));
+    if (!grab->note.empty()) say(grab->note, ui::Tone::note);
 }
 
 void Studio::on(const ui::Recover& request) {

@@ -62,6 +62,11 @@ Point<CameraFrame> cameraAxis(const Document& document) {
     const Size size = document.scene.size();
     const Box<ProcamCalibration>& calibration = document.rig.calibration;
     if (calibration && calibration->camera.size == size) return {calibration->camera.cx, calibration->camera.cy};
+    const CameraMode& mode = document.scene.camera;
+    if (mode.picture == size && mode.sensor.width > 0 && mode.sensor.height > 0 && mode.binning > 0) {
+        return {(0.5 * mode.sensor.width - mode.x0) / mode.binning,
+                (0.5 * mode.sensor.height - mode.y0) / mode.binning};
+    }
     return {0.5 * size.width, 0.5 * size.height};
 }
 

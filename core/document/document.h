@@ -83,6 +83,8 @@ struct Scene {
     Box<MeasuredDepth>
         measured;       ///< what `depth` was made from, seen from the camera; may be empty: depth came as it is
     ViewerPose viewer;  ///< where the wearer is: `measured` and this make `depth`
+    /// How a camera's picture was cut out of its sensor (of a picture of another size: nothing); see picture_change.h.
+    CameraMode camera{};
     bool operator==(const Scene&) const = default;
 
     Size size() const { return picture ? picture->size() : Size{}; }
@@ -129,7 +131,7 @@ std::vector<const Region*> activeRegions(const Document& document);
 /// centred, with equal scale in x and y.
 PixelMap pixelMap(const Document& document);
 
-/// The camera's axis in the picture (its centre, until a calibration says otherwise).
+/// The camera's axis in the picture: where a calibration says, else the middle of the sensor, else of the picture.
 Point<CameraFrame> cameraAxis(const Document& document);
 
 /// Where an eye's optical centre lies on a surface at `distance`, in the picture. Lens axes are parallel, so the

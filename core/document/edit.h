@@ -117,7 +117,9 @@ struct SetDepthScale {
 struct SetPixelScale {
     PixelScale scale;
 };
-/// Another picture beneath the regions. Masks are kept when the size is the same and resampled when it is not.
+/// Another picture beneath the regions. What lies on the old one (masks, outlines, points of planes, flat things that
+/// are followed) goes along: as the camera's mode changed, or stretched where the size is another
+/// (core/document/picture_change.h). Refused where a camera's picture lies nobody knows how in the old one.
 struct SetScene {
     Scene scene;
 };

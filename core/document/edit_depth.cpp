@@ -124,12 +124,14 @@ Result<Document> withDistancesAnew(Document document) {
 Result<Document> withPixelScale(Document document, const SetPixelScale& e) {
     const Size size = document.scene.size();
     if (auto ok = checked(e.scale, size); !ok) return tl::unexpected(ok.error());
-    const Pinhole before = plainPinhole(size, document.scene.scale.focalPixels);
+    const double before = document.scene.scale.focalPixels;
     document.scene.scale = e.scale;
-    // A camera that was only guessed from the field of view follows it.
-    if (!document.scene.measured || document.scene.measured->camera != before) return document;
+    if (!document.scene.measured) return document;
     MeasuredDepth measured = *document.scene.measured;
-    measured.camera = plainPinhole(size, e.scale.focalPixels);
+    // A camera that was only guessed from the field of view follows it; of a part of a sensor its axis may lie aside.
+    const Pinhole guess{size, before, before, measured.camera.cx, measured.camera.cy, {}};
+    if (measured.camera != guess) return document;
+    measured.camera.fx = measured.camera.fy = e.scale.focalPixels;
     document.scene.measured = Box(std::move(measured));
     return withDistancesAnew(std::move(document));
 }

@@ -1,9 +1,10 @@
 // Another picture beneath the regions: what was drawn on the old one goes along.
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "core/document/edit_parts.h"
+#include "core/document/picture_change.h"
 
 namespace ilf {
 
@@ -11,33 +12,40 @@ namespace {
 
 constexpr double kMostPixels = 100e6;
 
-/// `mask` stretched over a picture of another size: averaged where it shrinks, bilinear where it grows.
-Mask stretched(const Mask& mask, Size size) {
-    if (mask.empty() || mask.blank()) return Mask(size);
-    const Image<std::uint8_t> from = toImage(mask);
-    // OpenCV asks for a writable pointer; the source of a resize is only read.
-    const cv::Mat1b source(from.height(), from.width(), const_cast<std::uint8_t*>(from.pixels().data()));
-    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
-    cv::Mat1b target(size.height, size.width, pixels.data());
-    const bool shrinks = size.width <= from.width() && size.height <= from.height();
-    cv::resize(source, target, target.size(), 0, 0, shrinks ? cv::INTER_AREA : cv::INTER_LINEAR);
-    return toTiles({size, 1, std::move(pixels)});
+using Change = Homography<CameraFrame, CameraFrame>;
+
+/// The part of the new picture that shows what `patch` did in the old one.
+PixelRect<CameraFrame> alongWith(const PixelRect<CameraFrame>& patch, const Change& newFromOld, Size picture) {
+    const auto first = newFromOld(Point<CameraFrame>{1.0 * patch.x0, 1.0 * patch.y0});
+    const auto last = newFromOld(Point<CameraFrame>{1.0 * patch.x1, 1.0 * patch.y1});
+    const auto whole = [](double v) { return static_cast<int>(std::lround(v)); };
+    return PixelRect<CameraFrame>{whole(first.x), whole(first.y), whole(last.x), whole(last.y)}.clipped(picture);
 }
 
-void stretch(Region& region, Size from, Size to) {
-    const double sx = static_cast<double>(to.width) / std::max(1, from.width);
-    const double sy = static_cast<double>(to.height) / std::max(1, from.height);
-    const auto moved = [&](Point<CameraFrame> p) { return Point<CameraFrame>{p.x * sx, p.y * sy}; };
+/// The region where its things are in a picture of `to` pixels.
+Result<Region> goneAlong(Region region, const Change& oldFromNew, Size to) {
+    const Change newFromOld = oldFromNew.inverted();
     if (auto* plane = std::get_if<PlaneDistance>(&region.distance)) {
         for (DistanceAnchor& anchor : plane->anchors)
-            anchor.at = moved(anchor.at);
+            anchor.at = newFromOld(anchor.at);
     }
     if (region.outline) {
         for (Point<CameraFrame>& p : region.outline->vertices)
-            p = moved(p);
+            p = newFromOld(p);
     }
-    if (region.id == kBackgroundId) return;
-    region.mask = region.outline ? rasterised(*region.outline, to) : stretched(region.mask, to);
+    if (region.follow) {
+        if (auto* flat = std::get_if<PlanarTarget>(&region.follow->target)) {
+            flat->patch = alongWith(flat->patch, newFromOld, to);
+            if (!checked(*region.follow, to)) {
+                return fail(Fault::outOfRange, "What \"" + region.name +
+                                                   "\" follows is not in this picture, or too small in it: let it "
+                                                   "follow nothing first, or take a picture that shows it.");
+            }
+        }
+    }
+    if (region.id == kBackgroundId) return region;
+    region.mask = region.outline ? rasterised(*region.outline, to) : resampled(region.mask, oldFromNew, to);
+    return region;
 }
 
 }  // namespace
@@ -69,24 +77,23 @@ Result<Document> withScene(Document document, Scene scene) {
     if (auto ok = checked(scene.scale, size); !ok) return tl::unexpected(ok.error());
 
     const Size before = document.scene.size();
+    const auto change = oldFromNew(document, scene);
+    if (!change) return tl::unexpected(change.error());
     document.scene = std::move(scene);
     if (auto anew = withDistancesAnew(document)) {
         document = *std::move(anew);
     } else {
         return tl::unexpected(anew.error());
     }
-    if (before == size) return document;
-    try {
-        const auto moved = [&](const Box<Region>& box) {
-            Region region = *box;
-            stretch(region, before, size);
-            return Box<Region>(std::move(region));
-        };
-        for (Box<Region>& region : document.regions)
-            region = moved(region);
-        if (document.background) document.background = moved(document.background);
-    } catch (const cv::Exception& e) {
-        return fail(Fault::outOfRange, std::string("The regions could not be fitted to the new picture: ") + e.what());
+    if (before == size && *change == Change{}) return document;
+    std::vector<Box<Region>*> boxes;
+    for (Box<Region>& region : document.regions)
+        boxes.push_back(&region);
+    if (document.background) boxes.push_back(&document.background);
+    for (Box<Region>* box : boxes) {
+        auto region = goneAlong(**box, *change, size);
+        if (!region) return tl::unexpected(region.error());
+        *box = Box<Region>(*std::move(region));
     }
     return document;
 }

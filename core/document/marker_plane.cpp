@@ -84,7 +84,10 @@ Pinhole sceneCamera(const Document& document) {
     if (document.rig.calibration && document.rig.calibration->camera.size == size) {
         return document.rig.calibration->camera;
     }
-    return plainPinhole(size, document.scene.scale.focalPixels);
+    Pinhole plain = plainPinhole(size, document.scene.scale.focalPixels);
+    const auto axis = cameraAxis(document);
+    plain.cx = axis.x, plain.cy = axis.y;
+    return plain;
 }
 
 Result<MarkerPlane> markerPlane(const Document& document, const Region& region, const Pinhole& camera,

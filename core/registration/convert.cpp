@@ -102,8 +102,8 @@ Result<void> checkedMode(const CameraMode& mode, const char* whose) {
                       mode.x0 + std::int64_t{mode.binning} * mode.picture.width <= mode.sensor.width &&
                       mode.y0 + std::int64_t{mode.binning} * mode.picture.height <= mode.sensor.height;
     if (fits) return {};
-    return refused(std::string(whose) + " picture of " + sized(mode.picture) +
-                   " pixels does not fit on the sensor of " + sized(mode.sensor) + ". Register again.");
+    return fail(Fault::unsupported, std::string(whose) + " picture of " + sized(mode.picture) +
+                                        " pixels does not fit on the sensor of " + sized(mode.sensor) + ".");
 }
 
 }  // namespace
@@ -113,39 +113,51 @@ PixelMap remapped(const PixelMap& map, const Homography<CameraFrame, CameraFrame
     return PixelMap(Box<DenseMap>(resampled(map, oldFromNew, picture)));
 }
 
-Result<Registration> convertedTo(const Registration& registration, const CameraMode& now) {
-    const CameraMode& before = registration.camera;
-    if (!before.device.empty() && !now.device.empty() && before.device != now.device) {
-        return refused("it was made with \"" + before.device + "\", and this is \"" + now.device +
-                       "\". Register again, or open the camera it was made with.");
-    }
-    if (!known(before.picture) || !known(now.picture)) return registration;
-    Registration converted = registration;
-    converted.camera = now;
-    if (now.device.empty()) converted.camera.device = before.device;
+Result<Change> oldFromNew(const CameraMode& before, const CameraMode& now) {
+    const auto unknown = [](const std::string& why) { return fail(Fault::unsupported, why); };
+    if (!before.device.empty() && !now.device.empty() && before.device != now.device)
+        return unknown("the old one is of \"" + before.device + "\", and this one of \"" + now.device + "\".");
+    if (!known(before.picture) || !known(now.picture)) return Change{};
     const bool sensors = known(before.sensor) && known(now.sensor);
     if (sensors && before.sensor != now.sensor) {
-        return refused("it was made on a sensor of " + sized(before.sensor) + " pixels, and this one has " +
-                       sized(now.sensor) + ". Register again.");
+        return unknown("the old one is of a sensor of " + sized(before.sensor) + " pixels, and this one of " +
+                       sized(now.sensor) + ".");
     }
     const bool sameCut = before.x0 == now.x0 && before.y0 == now.y0 && before.binning == now.binning;
-    if (before.picture == now.picture && (sameCut || !sensors)) {
-        if (!known(now.sensor)) converted.camera.sensor = before.sensor;
-        return converted;
-    }
+    if (before.picture == now.picture && (sameCut || !sensors)) return Change{};
     if (!sensors) {
-        return refused(
-            "it was made for pictures of " + sized(before.picture) + " pixels, these have " + sized(now.picture) +
-            ", and how they are cut out of the sensor is not known. Choose the old size, or register again.");
+        return unknown("the old picture has " + sized(before.picture) + " pixels, this one " + sized(now.picture) +
+                       ", and how they are cut out of the sensor is not known.");
     }
     if (auto good = checkedMode(before, "the old"); !good) return tl::unexpected(good.error());
     if (auto good = checkedMode(now, "the new"); !good) return tl::unexpected(good.error());
     const double scale = static_cast<double>(now.binning) / before.binning;
-    const Change oldFromNew{{scale, 0.0, static_cast<double>(now.x0 - before.x0) / before.binning,  //
-                             0.0, scale, static_cast<double>(now.y0 - before.y0) / before.binning,  //
-                             0.0, 0.0, 1.0}};
-    const auto first = oldFromNew(Point<CameraFrame>{0.0, 0.0});
-    const auto last = oldFromNew(Point<CameraFrame>{1.0 * now.picture.width, 1.0 * now.picture.height});
+    return Change{{scale, 0.0, static_cast<double>(now.x0 - before.x0) / before.binning,  //
+                   0.0, scale, static_cast<double>(now.y0 - before.y0) / before.binning,  //
+                   0.0, 0.0, 1.0}};
+}
+
+Pinhole convertedBy(const Pinhole& camera, const Change& oldFromNew, Size picture) {
+    const Change newFromOld = oldFromNew.inverted();
+    const auto axis = newFromOld(Point<CameraFrame>{camera.cx, camera.cy});
+    return {picture, camera.fx * newFromOld.m[0], camera.fy * newFromOld.m[4], axis.x, axis.y, camera.distortion};
+}
+
+Result<Registration> convertedTo(const Registration& registration, const CameraMode& now) {
+    const CameraMode& before = registration.camera;
+    const auto change = oldFromNew(before, now);
+    if (!change)
+        return refused(change.error().what + " Register again, or choose the camera and size it was made with.");
+    if (!known(before.picture) || !known(now.picture)) return registration;
+    Registration converted = registration;
+    converted.camera = now;
+    if (now.device.empty()) converted.camera.device = before.device;
+    if (*change == Change{}) {
+        if (!known(now.sensor)) converted.camera.sensor = before.sensor;
+        if (before.picture == now.picture) return converted;
+    }
+    const auto first = (*change)(Point<CameraFrame>{0.0, 0.0});
+    const auto last = (*change)(Point<CameraFrame>{1.0 * now.picture.width, 1.0 * now.picture.height});
     constexpr double kSpare = 1.0;  // what the edge may be continued by
     const bool beyond = first.x < -kSpare || first.y < -kSpare || last.x > before.picture.width + kSpare ||
                         last.y > before.picture.height + kSpare;
@@ -153,7 +165,7 @@ Result<Registration> convertedTo(const Registration& registration, const CameraM
         return refused(
             "it shows more of the sensor than was scanned. Choose the part that was scanned, or scan again.");
     }
-    converted.map = remapped(registration.map, oldFromNew, now.picture);
+    converted.map = remapped(registration.map, *change, now.picture);
     return converted;
 }
 

@@ -30,6 +30,7 @@ inline Document fullDocument(Size size = {96, 70}) {
     Scene scene;
     scene.picture = Box<Picture>(noisePicture(size, 7, false));
     scene.source = "desk.png";
+    scene.camera = {"usb-camera-1", {1280, 1024}, 40, 20, 2, size};
     scene.scale = {1234.5, PixelScale::Source::typed};
     std::vector<std::uint16_t> raw(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height), 900);
     raw[5] = 0;
