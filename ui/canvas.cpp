@@ -125,6 +125,8 @@ ImU32 frameColour(const View& view) {
 
 }  // namespace
 
+const Document& shown(const Panel& p) { return p.view.follow.shown != nullptr ? *p.view.follow.shown : p.document(); }
+
 Metre markDistance(const Panel& p) {
     if (const RegionPlan* planned = p.planOf(p.state.selected)) return planned->nearest;
     if (const Region* region = p.selected()) {
@@ -157,10 +159,14 @@ std::optional<Distance> scaled(const Distance& distance, double ratio) {
 std::vector<Badge> badges(const Panel& p, const Viewport& viewport) {
     std::vector<Badge> placed;
     const double wide = 84 * p.scale, high = 25 * p.scale;
+    const Size size = p.document().scene.size();
     for (const Region* region : activeRegions(p.document())) {
-        const PixelRect<CameraFrame> covered = region->mask.coveredPixels().clipped(p.document().scene.size());
+        const PixelRect<CameraFrame> covered = region->mask.coveredPixels().clipped(size);
         if (covered.empty()) continue;
-        Badge badge{region, viewport.toWindow({(covered.x0 + covered.x1) / 2.0, (covered.y0 + covered.y1) / 2.0})};
+        const auto middle = motionOf(p, region->id)(
+            Point<CameraFrame>{(covered.x0 + covered.x1) / 2.0, (covered.y0 + covered.y1) / 2.0});
+        if (!(middle.x >= 0.0 && middle.y >= 0.0 && middle.x <= size.width && middle.y <= size.height)) continue;
+        Badge badge{region, viewport.toWindow(middle)};
         // Every move clears at least one of those placed before, so as many rounds as there are badges suffice.
         for (std::size_t round = 0; round < placed.size(); ++round) {
             for (const Badge& other : placed) {

@@ -10,6 +10,10 @@
 
 namespace ilf::ui {
 
+/// The document as it is drawn and clicked: what follows something lies where the live picture shows it.
+const Document& shown(const Panel& p);
+/// From where a region is painted to where it is shown.
+inline Motion motionOf(const Panel& p, const RegionId& region) { return motionOf(p.view.follow, region); }
 /// The distance at which the optical centres are drawn: of the selected region, or of what the plan focuses on.
 Metre markDistance(const Panel& p);
 /// A distance whose every point is `ratio` times as far; nothing for a depth map, which is measured.

@@ -26,10 +26,23 @@ RegionId paintTarget(const View& view, State& state, Requests& requests) {
 
 PaintMode shapeMode() { return ImGui::GetIO().KeyAlt ? PaintMode::erase : PaintMode::add; }
 
+/// A point of the canvas where the region is painted.
+Point<CameraFrame> paintedAt(const Panel& p, const RegionId& region, Point<CameraFrame> at) {
+    return motionOf(p, region).inverted()(at);
+}
+
+/// Strokes land on the thing as it is shown: dabs go back the way that it moved, and are as large on it as the ring.
+/// `gesture.now` is where it is painted, so that a stroke on a thing that moves meanwhile has no gaps on the thing.
 void paintTo(Panel& p, Point<CameraFrame> to) {
     CanvasGesture& gesture = p.state.gesture;
     const bool erasing = p.state.tool == Tool::erase;
-    std::vector<Dab> dabs = spacedDabs(gesture.now, to, erasing ? p.state.eraser : p.state.brush, gesture.carry);
+    Brush brush = erasing ? p.state.eraser : p.state.brush;
+    if (const Motion motion = motionOf(p, gesture.region); motion != Motion{}) {
+        const Motion back = motion.inverted();
+        brush.radius = std::clamp(brush.radius * scaleAt(back, to), 0.5, 2000.0);
+        to = back(to);
+    }
+    std::vector<Dab> dabs = spacedDabs(gesture.now, to, brush, gesture.carry);
     gesture.now = to;
     if (dabs.empty()) return;
     // One preview a frame: the dabs of all samples join the last request when it is ours.
@@ -54,16 +67,28 @@ Point<CameraFrame> edgeMiddle(const Outline& outline, std::size_t i) {
     return {(a.x + b.x) / 2, (a.y + b.y) / 2};
 }
 
+/// From now on the pointer scrubs the distance of a region.
+bool beginDistance(Panel& p, const RegionId& id) {
+    const Region* region = findRegion(p.document(), id);  // as painted: a plane's points go along with what follows
+    if (region == nullptr) return false;
+    p.state.selected = id;
+    p.state.gesture.kind = Kind::distance;
+    p.state.gesture.region = id;
+    p.state.gesture.original = region->distance;
+    return true;
+}
+
 /// Takes hold of a vertex, an edge's middle, an anchor, a centre or a badge under the pointer.
 bool takeHandle(Panel& p, const Viewport& viewport, Point<WidgetFrame> at) {
     const double reach = kReach * p.scale;
     CanvasGesture& gesture = p.state.gesture;
     const auto near = [&](Point<CameraFrame> mark) { return apart(viewport.toWindow(mark), at) <= reach; };
     const Region* region = p.selected();
+    const Motion motion = region != nullptr ? motionOf(p, region->id) : Motion{};
     if (region != nullptr && region->outline && (p.state.tool == Tool::move || p.state.tool == Tool::polygon)) {
         const Outline& outline = *region->outline;
         for (std::size_t i = 0; i < outline.vertices.size(); ++i) {
-            if (!near(outline.vertices[i])) continue;
+            if (!near(motion(outline.vertices[i]))) continue;
             gesture.kind = Kind::moveVertex;
             gesture.region = region->id;
             gesture.index = i;
@@ -72,7 +97,7 @@ bool takeHandle(Panel& p, const Viewport& viewport, Point<WidgetFrame> at) {
         }
         for (std::size_t i = 0; i < outline.vertices.size(); ++i) {
             const Point<CameraFrame> middle = edgeMiddle(outline, i);
-            if (!near(middle)) continue;
+            if (!near(motion(middle))) continue;
             gesture.kind = Kind::moveVertex;
             gesture.region = region->id;
             gesture.index = i + 1;
@@ -85,7 +110,7 @@ bool takeHandle(Panel& p, const Viewport& viewport, Point<WidgetFrame> at) {
     if (region != nullptr) {
         if (const auto* plane = std::get_if<PlaneDistance>(&region->distance)) {
             for (std::size_t i = 0; i < plane->anchors.size(); ++i) {
-                if (!near(plane->anchors[i].at)) continue;
+                if (!near(motion(plane->anchors[i].at))) continue;
                 gesture.kind = Kind::moveAnchor;
                 gesture.region = region->id;
                 gesture.index = i;
@@ -100,13 +125,9 @@ bool takeHandle(Panel& p, const Viewport& viewport, Point<WidgetFrame> at) {
         gesture.index = eye == Eye::left ? 0 : 1;
         return true;
     }
-    for (const auto& [shown, badge] : badges(p, viewport)) {
+    for (const auto& [marked, badge] : badges(p, viewport)) {
         if (std::abs(badge.x - at.x) > 34 * p.scale || std::abs(badge.y - at.y) > 12 * p.scale) continue;
-        p.state.selected = shown->id;
-        gesture.kind = Kind::distance;
-        gesture.region = shown->id;
-        gesture.original = shown->distance;
-        return true;
+        return beginDistance(p, marked->id);
     }
     return false;
 }
@@ -119,8 +140,9 @@ void rightClick(Panel& p, const Viewport& viewport, Point<WidgetFrame> at) {
     const Region* region = p.selected();
     if (region == nullptr || !region->outline || region->outline->vertices.size() <= 3) return;
     Outline outline = *region->outline;
+    const Motion motion = motionOf(p, region->id);
     for (std::size_t i = 0; i < outline.vertices.size(); ++i) {
-        if (apart(viewport.toWindow(outline.vertices[i]), at) > kReach * p.scale) continue;
+        if (apart(viewport.toWindow(motion(outline.vertices[i])), at) > kReach * p.scale) continue;
         outline.vertices.erase(outline.vertices.begin() + static_cast<std::ptrdiff_t>(i));
         p.commit(SetOutline{region->id, std::move(outline)});
         return;
@@ -158,27 +180,23 @@ void begin(Panel& p, const Viewport& viewport, const PointerSample& sample) {
         return;
     }
     if (gesture.button == 1) return rightClick(p, viewport, sample.at);
-    if (state.placingGaze) return lookAt(state, p.document(), at);
+    if (state.placingGaze) return lookAt(state, shown(p), at);
     if (state.mode == ViewMode::compare &&
         std::abs(sample.at.x - (p.at.canvas.x + state.divider * p.at.canvas.w)) <= kReach * p.scale) {
         gesture.kind = Kind::divider;
         return;
     }
     if (state.distanceHeld) {
-        const Region* region = regionAt(p.document(), at);
+        const Region* region = regionAt(shown(p), at);
         if (region == nullptr) region = p.selected();
         if (region == nullptr) return;
-        state.selected = region->id;
-        state.distanceDragged = true;
-        gesture.kind = Kind::distance;
-        gesture.region = region->id;
-        gesture.original = region->distance;
+        state.distanceDragged = beginDistance(p, region->id);
         return;
     }
     if (takeHandle(p, viewport, sample.at)) return;
     switch (state.tool) {
     case Tool::move: {
-        const Region* region = regionAt(p.document(), at);
+        const Region* region = regionAt(shown(p), at);
         state.selected = region != nullptr ? region->id : kBackgroundId;
         return;
     }
@@ -188,6 +206,7 @@ void begin(Panel& p, const Viewport& viewport, const PointerSample& sample) {
         gesture.kind = Kind::paint;
         state.hintsUsed.insert(Hint::brush);
         if (ImGui::GetIO().KeyShift && state.lastPoint) gesture.now = *state.lastPoint;
+        gesture.now = paintedAt(p, gesture.region, gesture.now);
         return paintTo(p, at);
     case Tool::rectangle:
     case Tool::ellipse:
@@ -202,7 +221,8 @@ void begin(Panel& p, const Viewport& viewport, const PointerSample& sample) {
         return;
     case Tool::flood: {
         const RegionId region = paintTarget(p.view, state, p.requests);
-        p.requests.push_back(SelectFlood{region, at, state.floodByDepth ? state.surfaceTolerance : state.floodTolerance,
+        p.requests.push_back(SelectFlood{region, paintedAt(p, region, at),
+                                         state.floodByDepth ? state.surfaceTolerance : state.floodTolerance,
                                          state.floodByDepth});
         return;
     }
@@ -245,13 +265,13 @@ void go(Panel& p, const Viewport& viewport, const PointerSample& sample) {
         gesture.now = at;
         return;
     case Kind::moveVertex:
-        gesture.points[gesture.index] = at;
+        gesture.points[gesture.index] = paintedAt(p, gesture.region, at);
         p.preview(SetOutline{gesture.region, Outline{gesture.points}});
         gesture.edited = true;
         return;
     case Kind::moveAnchor: {
         auto plane = std::get<PlaneDistance>(gesture.original);
-        plane.anchors[gesture.index].at = at;
+        plane.anchors[gesture.index].at = paintedAt(p, gesture.region, at);
         p.preview(SetDistance{gesture.region, plane});
         gesture.edited = true;
         return;
@@ -285,30 +305,30 @@ void finish(Panel& p) {
     State& state = p.state;
     // The gesture is over whatever follows: the copy lives on for its last request.
     const CanvasGesture gesture = state.gesture;
-    const double moved = apart(gesture.startAt, gesture.lastAt);
+    const double way = apart(gesture.startAt, gesture.lastAt);
     switch (gesture.kind) {
     case Kind::none:
     case Kind::pan:
     case Kind::divider:
         break;
     case Kind::paint:
-        state.lastPoint = gesture.now;
+        state.lastPoint = motionOf(p, gesture.region)(gesture.now);
         if (gesture.edited) p.requests.push_back(CommitGesture{state.tool == Tool::erase ? "Erase" : "Paint"});
         break;
     case Kind::drawShape:
     case Kind::drawLasso: {
-        if (moved < 2.0 && gesture.points.size() < 3) break;
+        if (way < 2.0 && gesture.points.size() < 3) break;
         const RegionId region = paintTarget(p.view, state, p.requests);
-        p.commit(FillShape{region, drawnShape(state), shapeMode(), state.protectOthers});
+        p.commit(
+            FillShape{region, asPainted(drawnShape(state), motionOf(p, region)), shapeMode(), state.protectOthers});
         state.hintsUsed.insert(Hint::brush);
         break;
     }
     case Kind::drawBox: {
         const RegionId region = paintTarget(p.view, state, p.requests);
-        const auto [x0, x1] = std::minmax(gesture.start.x, gesture.now.x);
-        const auto [y0, y1] = std::minmax(gesture.start.y, gesture.now.y);
-        const PixelRect<CameraFrame> box{static_cast<int>(std::floor(x0)), static_cast<int>(std::floor(y0)),
-                                         static_cast<int>(std::ceil(x1)), static_cast<int>(std::ceil(y1))};
+        const auto &a = gesture.start, &b = gesture.now;
+        const Motion back = motionOf(p, region).inverted();
+        const PixelRect<CameraFrame> box = boxAround(moved(Quad{a, {b.x, a.y}, b, {a.x, b.y}}, back));
         p.requests.push_back(SelectObject{region, box.clipped(p.document().scene.size())});
         break;
     }
@@ -342,7 +362,7 @@ void finishPolygon(const View& view, State& state, Requests& requests) {
     const Region* region = findRegion(view.document, state.selected);
     const bool blank = region == nullptr || region->id == kBackgroundId || region->mask.blank();
     const RegionId target = paintTarget(view, state, requests);
-    Outline outline{std::move(vertices)};
+    Outline outline = std::get<Outline>(asPainted(Outline{std::move(vertices)}, motionOf(view.follow, target)));
     // On an empty region the outline stays editable; on a painted one it joins the paint.
     Edit edit = blank ? Edit(SetOutline{target, std::move(outline)})
                       : Edit(FillShape{target, Shape(std::move(outline)), shapeMode(), state.protectOthers});

@@ -99,21 +99,26 @@ void drawSelected(const Marks& m) {
     const State& state = m.p.state;
     const Region* region = m.p.selected();
     if (region == nullptr) return;
+    const Motion motion = motionOf(m.p, region->id);
     if (const auto* plane = std::get_if<PlaneDistance>(&region->distance)) {
         for (std::size_t i = 0; i < plane->anchors.size(); ++i) {
-            const ImVec2 a = m.at(plane->anchors[i].at), b = m.at(plane->anchors[(i + 1) % plane->anchors.size()].at);
+            const ImVec2 a = m.at(motion(plane->anchors[i].at)),
+                         b = m.at(motion(plane->anchors[(i + 1) % plane->anchors.size()].at));
             m.draw.AddLine(a, b, rgb(0x58C48A, 120), m.px(1));
         }
         for (std::size_t i = 0; i < plane->anchors.size(); ++i) {
             const DistanceAnchor& anchor = plane->anchors[i];
-            m.handle(anchor.at, colour::good);
-            const ImVec2 c = m.at(anchor.at);
+            const auto at = motion(anchor.at);
+            m.handle(at, colour::good);
+            const ImVec2 c = m.at(at);
             m.label({c.x, c.y - m.px(20)}, std::to_string(i + 1) + ":  " + formatted(anchor.distance), colour::good,
                     false);
         }
     }
     if (!region->outline || (state.tool != Tool::move && state.tool != Tool::polygon)) return;
-    const auto& vertices = state.gesture.kind == Kind::moveVertex ? state.gesture.points : region->outline->vertices;
+    auto vertices = state.gesture.kind == Kind::moveVertex ? state.gesture.points : region->outline->vertices;
+    for (auto& vertex : vertices)
+        vertex = motion(vertex);
     const ImU32 ink = lookColour(region->look);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const auto& next = vertices[(i + 1) % vertices.size()];

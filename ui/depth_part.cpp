@@ -69,9 +69,10 @@ void viewerFields(Panel& p, const Scene& scene) {
         [](ViewerPlace& place, double v) { place.turned_deg = v; });
     row("  tilted", "###viewerTilted", now.tilted_deg, angle("They look that far down from where it looks."),
         [](ViewerPlace& place, double v) { place.tilted_deg = v; });
-    const FieldSpec sigma{Unit::metre, 0.0, 1.0, 0.001,
-                          "How far they move along their view, one standard deviation: it goes into every distance."};
-    if (const auto change = numberRow(p, "  moves by \u00b1", "###viewerSigma", scene.viewer.sigma.si(), sigma)) {
+    const FieldSpec sigma{
+        Unit::metre, 0.0, 1.0, 0.001,
+        "How far they move along their view, one standard deviation (sigma): it goes into every distance."};
+    if (const auto change = numberRow(p, "  moves, 1 sigma", "###viewerSigma", scene.viewer.sigma.si(), sigma)) {
         ViewerPose next = scene.viewer;
         next.sigma = Metre::fromSi(change->value);
         p.edit(change->commits, SetViewerPose{next});

@@ -47,18 +47,36 @@ Follow newFollow(const Region& region) {
     return follow;
 }
 
-/// The marker that was found nearest to the region in the scene's picture.
-MarkerTarget nearestMarker(const Panel& p, const Region& region) {
+/// The marker that was found nearest to the region in the scene's picture, if there is any.
+std::optional<MarkerTarget> nearestMarker(const Panel& p, const Region& region) {
     const auto middle = middleOf(region.mask);
-    MarkerTarget nearest;
-    double least = -1.0;
+    std::optional<MarkerTarget> nearest;
+    double least = 0.0;
     for (const MarkerFound& found : p.view.follow.markers) {
         const double away = std::hypot(found.middle.x - middle.x, found.middle.y - middle.y);
-        if (!found.inScene || (least >= 0.0 && away >= least)) continue;
+        if (!found.inScene || (nearest && away >= least)) continue;
         least = away;
-        nearest = {found.dictionary, found.id};
+        nearest = MarkerTarget{found.dictionary, found.id};
     }
     return nearest;
+}
+
+/// What a look for markers gave: the nearest one is followed, or it is said that there is none.
+void takeMarker(Panel& p, const Region& region) {
+    p.state.markerFor.clear();
+    const auto nearest = nearestMarker(p, region);
+    Follow follow = region.follow.value_or(newFollow(region));
+    follow.target = nearest.value_or(MarkerTarget{});
+    p.commit(SetFollow{region.id, follow});
+    if (region.locked) return;  // refused, which is said
+    const MarkerTarget& marker = std::get<MarkerTarget>(follow.target);
+    const std::string name = marker.dictionary + " number " + std::to_string(marker.id);
+    const bool live = std::ranges::any_of(p.view.follow.markers, [](const MarkerFound& m) { return !m.inScene; });
+    if (nearest) return say(p.state, "\"" + region.name + "\" follows " + name + ".", Tone::note, p.view.time_s);
+    say(p.state,
+        live ? "Markers are seen in the live picture only: grab it (F5), then pick one under \"seen now\"."
+             : "No marker is seen yet: lay one on the thing and grab the picture (F5), or type which one it will be.",
+        Tone::warning, p.view.time_s);
 }
 
 int streamNumber(const std::string& address) {
@@ -134,7 +152,8 @@ void planarRows(Panel& p, const Region& region, const PlanarTarget& target) {
 void streamRows(Panel& p, const Region& region, const StreamTarget& stream) {
     const FieldSpec spec{Unit::number, 0.0, kMostStream, 1.0,
                          "N of the address /pose/N, to which x, y (0 to 1 of the picture), z, rotation (degrees) and "
-                         "confidence are sent."};
+                         "confidence are sent. The middle of what is painted goes to x, y; z is not used: the region "
+                         "keeps its distance."};
     const auto change = numberRow(p, "  pose number", "###stream", streamNumber(stream.address), spec);
     if (!change || !change->commits) return;
     Follow follow = *region.follow;
@@ -208,14 +227,19 @@ void followPart(Panel& p, const Region& region) {
         choice("###follows", {"nothing", "marker", "flat", "pose"}, kind, ImGui::GetContentRegionAvail().x);
     if (picked && *picked != kind) {
         Follow follow = region.follow.value_or(newFollow(region));
+        p.state.markerFor.clear();
         if (*picked == 0) p.commit(SetFollow{region.id, std::nullopt});
         if (*picked == 1) {
-            follow.target = nearestMarker(p, region);
             p.requests.push_back(LookForMarkers{});
+            p.state.markerFor = region.id;
         }
         if (*picked == 2) follow.target = PlanarTarget{patchOf(p, region)};
         if (*picked == 3) follow.target = StreamTarget{};
-        if (*picked != 0) set(p, region, follow);
+        if (*picked > 1) set(p, region, follow);
+    } else if (p.state.markerFor == region.id) {
+        const bool seen = !p.view.follow.looking && p.view.follow.looked;
+        if (seen) takeMarker(p, region);
+        if (!seen) wrapped("Looking for markers...", colour::dim, Font::small);
     }
     if (region.follow) {
         const FollowWords words = followWords(p.view.follow, region);

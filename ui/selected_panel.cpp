@@ -9,6 +9,7 @@
 #include "ui/icons.h"
 #include "ui/new_region.h"
 #include "ui/prediction_card.h"
+#include "ui/why_no_part.h"
 #include "ui/widgets.h"
 
 namespace ilf::ui {
@@ -46,8 +47,8 @@ void planeSources(Panel& p, const Region& region) {
     if (ImGui::Button("Fit to depth###fitPlane", {width, 0})) {
         const auto plane = fittedPlane(p.document(), region);
         found(plane, plane ? "The plane of \"" + region.name + "\" fits the depth map to \u00b1 " +
-                                 formatted(2.0 * plane->rms) + ", with " + formatted(plane->inliers, Unit::percent) +
-                                 " of its pixels on it."
+                                 formatted(2.0 * plane->rms) + " (2 sigma), with " +
+                                 formatted(plane->inliers, Unit::percent) + " of its pixels on it."
                            : std::string());
     }
     ImGui::EndDisabled();
@@ -58,7 +59,7 @@ void planeSources(Panel& p, const Region& region) {
         const auto plane = markerPlane(p.document(), region, sceneCamera(p.document()), marker);
         found(plane, plane ? "The marker lies " + formatted(plane->markerDistance) +
                                  " from the lens; the plane is known to \u00b1 " +
-                                 formatted(plane->distance.tolerance) + "."
+                                 formatted(plane->distance.tolerance) + " (2 sigma)."
                            : std::string());
     }
     tooltip("The plane that a printed marker (AprilTag 36h11) lies in, found in the scene's picture.");
@@ -98,7 +99,8 @@ void distanceFields(Panel& p, const Region& region) {
                 p.view.time_s);
         }
     }
-    const FieldSpec tolerance{Unit::metre, 0.0, 100.0, 0.001, "The surface lies within the distance \u00b1 this."};
+    const FieldSpec tolerance{Unit::metre, 0.0, 100.0, 0.001,
+                              "The surface lies within the distance \u00b1 this; taken as two sigma."};
     if (const auto* constant = std::get_if<ConstantDistance>(&distance)) {
         if (const auto change =
                 numberRow(p, "  from the lens", "###distance", constant->value.si(), distanceSpec(), focus)) {
@@ -140,10 +142,10 @@ void derived(Panel& p, const RegionPlan& planned) {
     std::string at = formatted(planned.nearest);
     if (planned.farthest > planned.nearest) at += " \u2013 " + formatted(planned.farthest);
     derivedRow(p, "distance", at, "Of what is seen of it, nearest to farthest, its uncertainty added on both sides.");
-    derivedRow(
-        p, "  known to", planned.sigma > 0.0_m ? "\u00b1 " + formatted(2.0 * planned.sigma) : "not said",
-        "Two standard deviations: of the depth map and the wearer's place, of the fitted plane, or the tolerance "
-        "typed.");
+    derivedRow(p, "  known to",
+               planned.sigma > 0.0_m ? "\u00b1 " + formatted(2.0 * planned.sigma) + " (2 sigma)" : "not said",
+               "Two standard deviations (sigma): of the depth map and the wearer's place, of the fitted plane, or the "
+               "tolerance typed.");
     if (planned.look == Look::blur) {
         std::string least = planned.pMin ? formatted(*planned.pMin) : "blurred at rest";
         if (plan.driver == planned.id)
@@ -209,8 +211,9 @@ void selectedPage(Panel& p) {
         ImGui::Dummy({1, p.px(2)});
         predictionCard(p, *region, *planned);
         derived(p, *planned);
-    } else if (region->id != kBackgroundId && region->mask.blank()) {
-        wrapped("Covers nothing yet: paint it.", colour::dim, Font::small);
+    } else if (p.view.computed.forCurrent && p.plan() != nullptr) {
+        const std::string why = whyNoPart(p.document(), *region);
+        wrapped(why, region->mask.blank() ? colour::dim : colour::warn, Font::small);
     } else if (!p.view.computed.planError.empty()) {
         wrapped(p.view.computed.planError, colour::fault);
     }

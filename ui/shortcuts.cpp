@@ -374,7 +374,8 @@ void run(Command command, const View& view, State& state, Requests& requests) {
     case Command::gazeHere:
         // From a menu there is no point under the cursor: the next click gives it.
         state.placingGaze = !state.cursor;
-        if (state.cursor) lookAt(state, view.document, *state.cursor);
+        if (state.cursor)
+            lookAt(state, view.follow.shown != nullptr ? *view.follow.shown : view.document, *state.cursor);
         return;
     case Command::resetLayout:
         state.panels = {};

@@ -115,6 +115,7 @@ struct State {
     std::string intrinsics;         ///< file that is loaded along with a depth map; empty: none
     Metre markerSide = 50.0_mm;     ///< of the printed marker a plane is laid through
     int markerId = 0;
+    RegionId markerFor;  ///< it will follow the marker that is being looked for
     RegionId selected;
 
     ViewMode mode = ViewMode::scene;

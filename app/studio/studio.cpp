@@ -165,7 +165,8 @@ void Studio::frame() {
     times_.lap(FrameStage::input);
 
     showTitle();
-    pictures_.show(shown(), ui_.selected);
+    placeShown();
+    pictures_.show(shown_ ? *shown_ : editor_.document(), ui_.selected);
     times_.lap(FrameStage::marks);
     const bool partly = pictures_.show(seen_, kUploadBudget);
     if (ui::wants(ui_).lights) pictures_.showLights(done_);

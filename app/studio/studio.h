@@ -96,9 +96,9 @@ private:
     void writeRegistration(const Registrar::ToWrite& found);
     void followRegions();  ///< tells the tracker what there is, and takes what it found
     ui::FollowView followView() const;
-    bool followsOnShow() const;     ///< what is painted plays, and moves along with what is followed
-    bool followsBehind() const;     ///< what plays does so, while edits wait to be put on show
-    const Document& shown() const;  ///< the document, with what follows where it is where the live picture is seen
+    bool followsOnShow() const;  ///< what is painted plays, and moves along with what is followed
+    bool followsBehind() const;  ///< what plays does so, while edits wait to be put on show
+    void placeShown();           ///< what follows where it is, where the live picture is seen
     void lookForBump();
     void takeBump();
     void followBump();
@@ -133,7 +133,10 @@ private:
     std::uint64_t trackedFor_ = 0;   ///< serial of the document that it knows
     bool trackedLive_ = false;       ///< and whether it was promised pictures
     std::uint64_t postedMoves_ = 0;  ///< serial of the moves that were posted
-    Latency lightLag_;               ///< from a picture's arrival to its light
+    std::optional<Document> shown_;  ///< with what follows where it is; none: as it is painted
+    std::vector<RegionMotion> shownMotions_;
+    std::uint64_t shownSerial_ = 0, shownMoves_ = 0;  ///< of the document and the moves it was made of
+    Latency lightLag_;                                ///< from a picture's arrival to its light
     bool lookingForMarkers_ = false;
     Image<std::uint8_t> liveFrame_;  ///< the newest that was shown
     std::optional<std::vector<ui::MarkerFound>> markers_;

@@ -1,12 +1,15 @@
 // Regions that follow something: what the tracker is told, and what becomes of what it found.
 #include "app/studio/studio.h"
+#include "core/track/predict.h"
 
 namespace ilf::app {
 
 void Studio::followRegions() {
     const Document& document = editor_.document();
     const bool live = camera_.live() && !registrar_.view();
-    if (trackedFor_ != editor_.serial() || trackedLive_ != live) {
+    // Within a gesture it knows the document from before: where a pose puts a region goes by the region's middle, which
+    // must not run away under the brush.
+    if ((trackedFor_ != editor_.serial() && !editor_.previewing()) || trackedLive_ != live) {
         trackedFor_ = editor_.serial();
         trackedLive_ = live;
         tracker_.follow(document, live);
@@ -52,10 +55,18 @@ void Studio::sendBehind() {
     link_.send({sent_, revision_, devices::Why::live, takeHold_});
 }
 
-const Document& Studio::shown() const {
-    const bool moved = camera_.live() && !tracked_.moves.empty() && !editor_.previewing() && done_.compiled &&
-                       done_.serial == editor_.serial();
-    return moved ? done_.compiled->document : editor_.document();
+void Studio::placeShown() {
+    // Without the live picture things are where they were painted.
+    if (!camera_.live() || tracked_.moves.empty() || registrar_.view()) {
+        shownMotions_.clear();
+        shown_.reset();
+        return;
+    }
+    if (shown_ && shownSerial_ == editor_.serial() && shownMoves_ == tracked_.serial) return;
+    shownSerial_ = editor_.serial();
+    shownMoves_ = tracked_.serial;
+    shownMotions_ = motionsAt(tracked_.moves, done_.compiled ? meanLight(done_.compiled->plan) : 0.0_s);
+    shown_ = moved(editor_.document(), shownMotions_, shown_ ? &*shown_ : nullptr);
 }
 
 ui::FollowView Studio::followView() const {
@@ -67,6 +78,8 @@ ui::FollowView Studio::followView() const {
     view.looked = markers_.has_value();
     if (markers_) view.markers = *markers_;
     view.behind = followsBehind();
+    view.shown = shown_ ? &*shown_ : nullptr;
+    view.motions = shownMotions_;
     return view;
 }
 

@@ -68,6 +68,11 @@ double farthestCorner(const Quad& a, const Quad& b) {
     return most;
 }
 
+double scaleAt(const Motion& motion, Point<CameraFrame> at) {
+    const double w = motion.m[6] * at.x + motion.m[7] * at.y + motion.m[8];
+    return std::sqrt(std::abs(motion.determinant() / (w * w * w)));
+}
+
 double signedArea(const Quad& q) { return 0.5 * (turn(q[0], q[1], q[2]) + turn(q[0], q[2], q[3])); }
 
 PixelRect<CameraFrame> boxAround(const Quad& q) {

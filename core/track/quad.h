@@ -23,6 +23,8 @@ Quad moved(const Quad& quad, const Motion& motion);
 Point<CameraFrame> middleOf(const Quad& quad);
 /// The longest way that a corner goes from `a` to `b`, pixels.
 double farthestCorner(const Quad& a, const Quad& b);
+/// How much longer lengths about `at` become, on the mean over directions.
+double scaleAt(const Motion& motion, Point<CameraFrame> at);
 /// Area inside, px^2; negative when the corners run anticlockwise as seen in the picture.
 double signedArea(const Quad& quad);
 /// The smallest box of whole pixels around it.

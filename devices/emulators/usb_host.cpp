@@ -6,9 +6,6 @@
 #include <cerrno>
 #include <chrono>
 #include <condition_variable>
-#include <cstddef>
-#include <cstdio>
-#include <cstring>
 #include <list>
 #include <mutex>
 #include <set>
@@ -19,45 +16,11 @@
 #include <vector>
 
 #include "devices/emulators/usb_port.h"
+#include "devices/emulators/usb_sysfs.h"
 
 namespace ilf::devices::emulators {
 
 namespace {
-
-std::string hex(const Bytes& bytes) {
-    std::string text;
-    char digits[3];
-    for (const std::uint8_t byte : bytes) {
-        std::snprintf(digits, sizeof digits, "%02x", unsigned(byte));
-        text += digits;
-    }
-    return text;
-}
-
-std::string threeDigits(int number) {
-    char digits[16];
-    std::snprintf(digits, sizeof digits, "%03d", number);
-    return digits;
-}
-
-/// "1-2.3" hangs on "1-2", that on "usb1".
-std::string parentOf(const std::string& path) {
-    const auto dot = path.rfind('.');
-    return dot != std::string::npos ? path.substr(0, dot) : "usb" + path.substr(0, path.find('-'));
-}
-
-bool wellFormed(const std::string& path) {
-    const auto dash = path.find('-');
-    if (dash == std::string::npos || path.size() > 24) return false;
-    bool digit = false;
-    for (std::size_t i = 0; i < path.size(); ++i) {
-        const bool isDigit = path[i] >= '0' && path[i] <= '9';
-        const bool separates = digit && (i == dash || (i > dash && path[i] == '.'));
-        if (!isDigit && !separates) return false;
-        digit = isDigit;
-    }
-    return digit;
-}
 
 // A program that asks for a transfer that is done asks again at once, for as long as it takes: to umockdev a device's
 // file can always be read. So the answer waits a little. Longer, and the program's other threads, which umockdev keeps
@@ -118,7 +81,7 @@ UsbPort* UsbHost::Impl::at(const std::string& path) const {
 }
 
 Result<void> UsbHost::Impl::plug(const std::string& path, EmulatedUsbDevice& device) {
-    if (!wellFormed(path)) return fail(Fault::outOfRange, "\"" + path + "\" is no place on a USB bus such as 1-2.3.");
+    if (!isUsbPath(path)) return fail(Fault::outOfRange, "\"" + path + "\" is no place on a USB bus such as 1-2.3.");
     const std::scoped_lock bedLock(bedCalls);
     // What pulled its own cable there may not have been taken out yet.
     for (UsbPort* left : goneAndNotPulled())
@@ -143,30 +106,22 @@ Result<void> UsbHost::Impl::plug(const std::string& path, EmulatedUsbDevice& dev
     {
         const std::scoped_lock lock(devices);
         bool taken = at(path) != nullptr || hubs.contains(path);
-        for (std::string hub = parentOf(path); !hub.starts_with("usb"); hub = parentOf(hub))
+        for (const std::string& hub : usbHubsOf(path))
             taken = taken || at(hub) != nullptr;
         if (taken) return fail(Fault::outOfRange, "Something is plugged in at USB " + path + " already.");
         port->busy = busy.contains(path);
         ports.push_back(std::move(port));
     }
 
-    // Real devices hang on hubs, and programs follow the chain to tell the place.
-    std::vector<std::string> chain;
-    for (std::string parent = parentOf(path);; parent = parentOf(parent)) {
-        chain.push_back(parent);
-        if (parent.starts_with("usb")) break;
-    }
-    std::string below = "/devices/pci0000:00/0000:00:14.0";
-    for (auto hub = chain.rbegin(); hub != chain.rend(); ++hub) {
-        below += "/" + *hub;
-        if (!hubs.insert(*hub).second) continue;
+    for (const std::string& hub : usbHubsOf(path)) {
+        if (!hubs.insert(hub).second) continue;
         UsbPort shape;
-        shape.path = *hub;
-        shape.sysfs = below;
+        shape.path = hub;
+        shape.sysfs = sysfsOf(hub);
         shape.descriptors = usbDescriptors({0x1D6B, 0x0002, 9, "", "Hub", "", {}});
         if (auto made = add(shape); !made) return made;
     }
-    added.sysfs = below + "/" + path;
+    added.sysfs = sysfsOf(path);
 
     added.handler.reset(umockdev_ioctl_base_new());
     g_signal_connect(added.handler.get(), "handle-ioctl",
@@ -190,12 +145,8 @@ Result<void> UsbHost::Impl::plug(const std::string& path, EmulatedUsbDevice& dev
 
 /// Makes the device known to programs: the handler first, so that opening works when they hear of it.
 Result<void> UsbHost::Impl::add(UsbPort& port) {
-    const std::string name = port.sysfs.substr(port.sysfs.rfind('/') + 1);
-    const bool root = name.starts_with("usb");
-    const std::string bus = root ? name.substr(3) : name.substr(0, name.find('-'));
     const int number = nextNumber++;
-    const std::string node = "bus/usb/" + threeDigits(std::stoi(bus)) + "/" + threeDigits(number);
-    port.node = "/dev/" + node;
+    port.node = usbNodeOf(port.path, number);
     GError* error = nullptr;
     const auto refused = [&](const std::string& what) {
         const std::string why = error != nullptr ? error->message : "for no given reason";
@@ -206,24 +157,7 @@ Result<void> UsbHost::Impl::add(UsbPort& port) {
     if (port.handler && umockdev_testbed_attach_ioctl(bed.get(), port.node.c_str(), port.handler.get(), &error) == 0)
         return refused("Emulating a device");
 
-    const Bytes& id = port.descriptors.device;
-    const auto word = [&](std::size_t offset) {
-        char digits[8];
-        std::snprintf(digits, sizeof digits, "%02x%02x", unsigned(id[offset + 1]), unsigned(id[offset]));
-        return std::string(digits);
-    };
-    std::string text = "P: " + port.sysfs + "\nN: " + node +
-                       "\nE: SUBSYSTEM=usb\nE: DEVTYPE=usb_device\nE: DRIVER=usb\nE: DEVNAME=" + port.node +
-                       "\nE: BUSNUM=" + threeDigits(std::stoi(bus)) + "\nE: DEVNUM=" + threeDigits(number) +
-                       "\nA: busnum=" + bus + "\\n\nA: devnum=" + std::to_string(number) +
-                       "\\n\nA: bConfigurationValue=1\\n\nA: speed=" + (root ? "480" : "12") +
-                       "\\n\nA: devpath=" + (root ? "0" : name.substr(name.find('-') + 1)) +
-                       "\\n\nA: idVendor=" + word(8) + "\\n\nA: idProduct=" + word(10) + "\\n\n";
-    const std::pair<std::uint8_t, const char*> names[] = {{1, "manufacturer"}, {2, "product"}, {3, "serial"}};
-    for (const auto& [index, attribute] : names)
-        if (const auto found = port.descriptors.strings.find(index); found != port.descriptors.strings.end())
-            text += "A: " + std::string(attribute) + "=" + found->second + "\\n\n";
-    text += "H: descriptors=" + hex(port.descriptors.device) + hex(port.descriptors.configuration) + "\n";
+    const std::string text = sysfsText(port.path, number, port.descriptors);
     if (umockdev_testbed_add_from_string(bed.get(), text.c_str(), &error) == 0) return refused("Adding a device");
     port.added = true;
     return {};

@@ -19,6 +19,21 @@ const SetFollow* clicked(Desk& desk, const char* what, Requests& asked) {
     return lastEdit<SetFollow>(asked, When::commit);
 }
 
+/// "marker" is clicked, and the app looks for three frames before it has found `markers`.
+const SetFollow* lookedFor(Desk& desk, const std::vector<MarkerFound>& markers, Requests& asked) {
+    desk.dress = [](View& view) { view.follow.looking = true; };
+    CHECK(clicked(desk, "marker", asked) == nullptr);
+    CHECK(std::ranges::any_of(asked, [](const Request& r) { return std::holds_alternative<LookForMarkers>(r); }));
+    desk.settle();
+    CHECK_FALSE(findRegion(desk.document(), "Face")->follow);
+    desk.dress = [markers](View& view) {
+        view.follow.looked = true;
+        view.follow.markers = markers;
+    };
+    asked = desk.frame();
+    return lastEdit<SetFollow>(asked, When::commit);
+}
+
 Region followingFace(Desk& desk, Follow follow) {
     Region face = *findRegion(desk.document(), "Face");
     face.follow = std::move(follow);
@@ -39,19 +54,32 @@ FollowedNow nowOf(FollowState state) {
 TEST_CASE("follows: a marker is asked for, and the one found nearest the region in the scene's picture is taken") {
     Desk desk(twoRegions());
     const auto middle = middleOf(findRegion(desk.document(), "Face")->mask);
-    desk.dress = [&](View& view) {
-        view.follow.looked = true;
-        view.follow.markers = {{"6X6_250", 3, {middle.x + 50, middle.y}, true},
-                               {"APRILTAG_36h11", 7, {middle.x + 5, middle.y}, true},
-                               {"6X6_250", 9, middle, false}};
-    };
     Requests asked;
-    const auto* set = clicked(desk, "marker", asked);
+    const auto* set = lookedFor(desk,
+                                {{"6X6_250", 3, {middle.x + 50, middle.y}, true},
+                                 {"APRILTAG_36h11", 7, {middle.x + 5, middle.y}, true},
+                                 {"6X6_250", 9, middle, false}},
+                                asked);
     REQUIRE(set != nullptr);
     REQUIRE(set->follow);
     CHECK(std::get<MarkerTarget>(set->follow->target) == MarkerTarget{"APRILTAG_36h11", 7});
-    CHECK(std::ranges::any_of(asked, [](const Request& r) { return std::holds_alternative<LookForMarkers>(r); }));
     CHECK(findRegion(desk.document(), "Face")->follow == set->follow);
+    CHECK(desk.state.toasts.back().text == "\"Face\" follows APRILTAG_36h11 number 7.");
+    // Once: what is seen later changes nothing by itself.
+    CHECK(lastEdit<SetFollow>(desk.frame(), When::commit) == nullptr);
+}
+
+TEST_CASE("follows: where no marker is seen that is said, and where one is seen live only, that it is to be grabbed") {
+    for (const bool live : {false, true}) {
+        Desk desk(twoRegions());
+        Requests asked;
+        std::vector<MarkerFound> markers;
+        if (live) markers.push_back({"6X6_250", 3, {10, 10}, false});
+        REQUIRE(lookedFor(desk, markers, asked) != nullptr);
+        REQUIRE_FALSE(desk.state.toasts.empty());
+        CHECK(desk.state.toasts.back().tone == Tone::warning);
+        CHECK(desk.state.toasts.back().text.find(live ? "grab it (F5)" : "No marker is seen yet") != std::string::npos);
+    }
 }
 
 TEST_CASE("follows: flat things are learnt where the region lies, poses by their number, and nothing again") {
