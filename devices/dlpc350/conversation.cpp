@@ -104,7 +104,9 @@ void Conversation::drained() {
         if (!link_->receive(in_, kPacketBytes, kDrainLimit)) return;
 }
 
-Error Conversation::about(const Error& error) const { return {Fault::device, name_ + ": " + error.what}; }
+Error Conversation::about(const Error& error) const {
+    return {Fault::device, name_ + ": " + error.what + " Check its firmware, and switch its power off and on."};
+}
 
 tl::unexpected<Error> Conversation::silent(Command command, const Error& why) {
     mayBeHalted_ = true;

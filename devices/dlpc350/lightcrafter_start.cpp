@@ -66,7 +66,9 @@ Result<void> LightCrafter::comparedTable(const std::vector<LutEntry>& told) {
     if (const auto ok = board_.tell(kCommandOf<Mailbox>, payloadOf(Mailbox::closed)); !ok) return ok;
 
     const auto found = parsedLut(*data, told.size());
-    if (!found) return tl::unexpected(about("gave its pattern table back cut short: " + found.error().what));
+    if (!found)
+        return tl::unexpected(about("gave its pattern table back cut short: " + found.error().what +
+                                    " Start again; if it stays so, switch its power off and on."));
     for (std::size_t i = 0; i < told.size(); ++i)
         if ((*found)[i] != told[i])
             return tl::unexpected(about("was told entry " + std::to_string(i) + " of the pattern table \"" +

@@ -85,7 +85,8 @@ std::vector<std::string> troubles(const HardwareStatus& status) {
         found.emplace_back("Buffers were swapped by force: the exposures do not fit into the frame. Use fewer or "
                            "shorter slots, and check that the video really has the refresh it was measured at.");
     if (status.sequencerAbort)
-        found.emplace_back("The sequencer gave up: the exposures do not fit into the frame, or the video stopped.");
+        found.emplace_back("The sequencer gave up: the exposures do not fit into the frame, or the video stopped. Use "
+                           "fewer or shorter slots, and check the video's cable.");
     if (status.sequencerError) found.emplace_back("The sequencer reports an error: start the patterns again.");
     return found;
 }
@@ -102,11 +103,12 @@ std::vector<std::string> troubles(const MainStatus& status) {
 
 std::vector<std::string> troubles(const Validation& validation) {
     std::vector<std::string> found;
-    if (validation.busy) found.emplace_back("The check of the pattern table did not end.");
+    if (validation.busy) found.emplace_back("The check of the pattern table did not end. Start the patterns again.");
     if (validation.exposureInvalid)
         found.emplace_back("The board calls the exposure or the period invalid: use fewer or longer slots.");
     if (validation.patternNumbersInvalid)
-        found.emplace_back("The board calls a pattern number invalid: there are 24 bit planes in a frame.");
+        found.emplace_back("The board calls a pattern number invalid: there are 24 bit planes in a frame. "
+                           "Use fewer slots or fewer bits.");
     return found;
 }
 

@@ -13,12 +13,14 @@ namespace {
 unsigned limitOf(Milliseconds limit) { return static_cast<unsigned>(std::max<Milliseconds::rep>(limit.count(), 1)); }
 
 std::string sending(std::size_t bytes, Endpoint to) {
-    return "sending " + std::to_string(bytes) + " bytes to endpoint " + hex(to.address, 2);
+    return "sent " + std::to_string(bytes) + " bytes at endpoint " + hex(to.address, 2);
 }
 
-std::string waiting(Endpoint from) { return "waiting for data from endpoint " + hex(from.address, 2); }
+std::string waiting(Endpoint from) { return "asked for data at endpoint " + hex(from.address, 2); }
 
-std::string asking(const VendorRequest& request) { return "handling request " + hex(request.request, 2); }
+std::string asking(const VendorRequest& request) {
+    return request.words.empty() ? "handling request " + hex(request.request, 2) : std::string(request.words);
+}
 
 // bmRequestType: vendor, to the device; bit 7 towards the host.
 constexpr std::uint8_t kVendorOut = 0x40, kVendorIn = 0xC0;
@@ -28,7 +30,7 @@ constexpr std::uint8_t kVendorOut = 0x40, kVendorIn = 0xC0;
 Result<std::unique_ptr<UsbLink>> LibusbLink::over(std::shared_ptr<OpenUsbDevice> device) {
     libusb_config_descriptor* configuration = nullptr;
     const int code = libusb_get_active_config_descriptor(libusb_get_device(device->handle), &configuration);
-    if (code != LIBUSB_SUCCESS) return tl::unexpected(usbError(code, device->identity, "reading its configuration"));
+    if (code != LIBUSB_SUCCESS) return tl::unexpected(usbError(code, device->identity, "asked for its configuration"));
     std::unique_ptr<LibusbLink> link(new LibusbLink(std::move(device)));
     for (int i = 0; i < configuration->bNumInterfaces; ++i) {
         const libusb_interface& interface = configuration->interface[i];
@@ -49,7 +51,13 @@ Result<Endpoint> LibusbLink::first(std::uint8_t type, bool towardsHost, const ch
     for (const Found& found : endpoints_)
         if (found.type == type && ((found.endpoint.address & LIBUSB_ENDPOINT_IN) != 0) == towardsHost)
             return found.endpoint;
-    return fail(Fault::device, inWords(identity()) + " has no " + words + " endpoint: it is not the device it says.");
+    return fail(Fault::device, inWords(identity()) + " has no " + words +
+                                   " endpoint: it is not the device it says. Look at what is plugged in there.");
+}
+
+Error LibusbLink::tookOnly(int done, std::size_t wanted) const {
+    return {Fault::device, inWords(identity()) + " took only " + std::to_string(done) + " of " +
+                               std::to_string(wanted) + " bytes. Unplug it and plug it in again."};
 }
 
 Result<Endpoint> LibusbLink::interruptOut() const {
@@ -74,9 +82,7 @@ Result<void> LibusbLink::send(Endpoint to, std::span<const std::uint8_t> data, M
     int done = 0;
     const int code = transfer(to, copy.data(), copy.size(), done, limit);
     if (code != LIBUSB_SUCCESS) return tl::unexpected(usbError(code, identity(), sending(data.size(), to)));
-    if (static_cast<std::size_t>(done) != data.size())
-        return fail(Fault::device, inWords(identity()) + " took only " + std::to_string(done) + " of " +
-                                       std::to_string(data.size()) + " bytes.");
+    if (static_cast<std::size_t>(done) != data.size()) return tl::unexpected(tookOnly(done, data.size()));
     return {};
 }
 
@@ -97,9 +103,7 @@ Result<void> LibusbLink::controlOut(const VendorRequest& request, std::span<cons
     const int done = libusb_control_transfer(device_->handle, kVendorOut, request.request, request.value, request.index,
                                              copy.data(), static_cast<std::uint16_t>(copy.size()), limitOf(limit));
     if (done < 0) return tl::unexpected(usbError(done, identity(), asking(request)));
-    if (static_cast<std::size_t>(done) != data.size())
-        return fail(Fault::device, inWords(identity()) + " took only " + std::to_string(done) + " of " +
-                                       std::to_string(data.size()) + " bytes.");
+    if (static_cast<std::size_t>(done) != data.size()) return tl::unexpected(tookOnly(done, data.size()));
     return {};
 }
 
@@ -115,7 +119,8 @@ Result<Bytes> LibusbLink::controlIn(const VendorRequest& request, std::size_t le
 Result<void> LibusbLink::clearHalt(Endpoint endpoint) {
     const int code = libusb_clear_halt(device_->handle, endpoint.address);
     if (code != LIBUSB_SUCCESS)
-        return tl::unexpected(usbError(code, identity(), "clearing the halt of endpoint " + hex(endpoint.address, 2)));
+        return tl::unexpected(
+            usbError(code, identity(), "told to clear the halt of endpoint " + hex(endpoint.address, 2)));
     return {};
 }
 

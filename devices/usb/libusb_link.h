@@ -37,6 +37,7 @@ private:
     };
     explicit LibusbLink(std::shared_ptr<OpenUsbDevice> device) : device_(std::move(device)) {}
     Result<Endpoint> first(std::uint8_t type, bool towardsHost, const char* words) const;
+    Error tookOnly(int done, std::size_t wanted) const;
     int transfer(Endpoint endpoint, std::uint8_t* data, std::size_t size, int& done, Milliseconds limit);
 
     std::shared_ptr<OpenUsbDevice> device_;

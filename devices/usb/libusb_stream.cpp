@@ -7,6 +7,8 @@
 namespace ilf::devices {
 namespace {
 
+constexpr const char* kStreaming = "exchanging a stream of samples";
+
 /// The code a call that waits would have returned.
 int codeOf(const libusb_transfer& transfer) {
     switch (transfer.status) {
@@ -48,7 +50,7 @@ Result<std::unique_ptr<UsbStream>> LibusbStream::start(std::shared_ptr<OpenUsbDe
             stream->fill_(part->buffer);
     for (const auto& part : stream->parts_)
         if (const int code = stream->submit(*part); code != LIBUSB_SUCCESS)
-            return tl::unexpected(usbError(code, stream->device_->identity, "starting a stream"));
+            return tl::unexpected(usbError(code, stream->device_->identity, kStreaming));
     return stream;
 }
 
@@ -59,7 +61,7 @@ Result<void> LibusbStream::prepare(std::size_t transferBytes, int inFlight) {
         part->buffer.resize(transferBytes);
         part->transfer = libusb_alloc_transfer(0);
         if (part->transfer == nullptr)
-            return tl::unexpected(usbError(LIBUSB_ERROR_NO_MEM, device_->identity, "starting a stream"));
+            return tl::unexpected(usbError(LIBUSB_ERROR_NO_MEM, device_->identity, kStreaming));
         libusb_fill_bulk_transfer(part->transfer, device_->handle, endpoint_.address, part->buffer.data(),
                                   static_cast<int>(transferBytes), &LibusbStream::completed, part.get(), 0);
         parts_.push_back(std::move(part));
@@ -83,7 +85,7 @@ Result<void> LibusbStream::state() const {
     const std::scoped_lock lock(mutex_);
     if (error_) return tl::unexpected(*error_);
     if (const int code = events_->failure(); code != 0)
-        return tl::unexpected(usbError(code, device_->identity, "streaming"));
+        return tl::unexpected(usbError(code, device_->identity, kStreaming));
     return {};
 }
 
@@ -120,7 +122,7 @@ void LibusbStream::done(Part& part) {
 void LibusbStream::ended(int code) {
     const std::scoped_lock lock(mutex_);
     if (stopping_ || error_) return;
-    error_ = usbError(code, device_->identity, "streaming");
+    error_ = usbError(code, device_->identity, kStreaming);
     cancelAll();
 }
 

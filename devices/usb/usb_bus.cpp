@@ -29,7 +29,7 @@ private:
 Result<void> opened(OpenUsbDevice& open, libusb_device* device) {
     const int code = libusb_open(device, &open.handle);
     if (code == LIBUSB_ERROR_ACCESS) return tl::unexpected(usbPermissionError(open.identity, nodeOf(device)));
-    if (code != LIBUSB_SUCCESS) return tl::unexpected(usbError(code, open.identity, "being opened"));
+    if (code != LIBUSB_SUCCESS) return tl::unexpected(usbError(code, open.identity, "opened"));
     return {};
 }
 
@@ -44,8 +44,9 @@ Result<void> claimed(OpenUsbDevice& open, libusb_device* device) {
     }
     if (code == LIBUSB_ERROR_NOT_FOUND)
         return fail(Fault::device, inWords(open.identity) + " has no interface " +
-                                       std::to_string(open.interfaceNumber) + ": it is not the device it says.");
-    if (code != LIBUSB_SUCCESS) return tl::unexpected(usbError(code, open.identity, "being claimed"));
+                                       std::to_string(open.interfaceNumber) +
+                                       ": it is not the device it says. Look at what is plugged in there.");
+    if (code != LIBUSB_SUCCESS) return tl::unexpected(usbError(code, open.identity, "claimed"));
     open.claimed = true;
     return {};
 }

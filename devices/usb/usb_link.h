@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/result.h"
@@ -27,7 +28,11 @@ struct Endpoint {
 struct VendorRequest {
     std::uint8_t request = 0;
     std::uint16_t value = 0, index = 0;
-    bool operator==(const VendorRequest&) const = default;
+    /// For sentences: what the device was doing for it, "asked for its state". A literal; not part of the request.
+    std::string_view words = "";
+    bool operator==(const VendorRequest& other) const {
+        return request == other.request && value == other.value && index == other.index;
+    }
 };
 
 /// What a device says of itself when it is found, before it is opened. Serial numbers may be empty or the same on two

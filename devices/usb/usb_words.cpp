@@ -40,21 +40,21 @@ std::string inWords(const UsbIdentity& identity) {
     return name + " at " + identity.path;
 }
 
-Error usbError(int code, const UsbIdentity& identity, const std::string& doing) {
-    const std::string who = inWords(identity);
+Error usbError(int code, const UsbIdentity& identity, const std::string& when) {
+    const std::string who = inWords(identity), again = "Unplug it and plug it in again.";
     switch (code) {
     case LIBUSB_ERROR_TIMEOUT:
-        return {Fault::device, who + " ran out of time " + doing + "."};
+        return {Fault::device, who + " did not answer in time when " + when + ". " + again};
     case LIBUSB_ERROR_NO_DEVICE:
-        return {Fault::device, who + " is gone (while " + doing + "). Plug it in again."};
+        return {Fault::device, who + " is gone (when " + when + "). Plug it in again."};
     case LIBUSB_ERROR_PIPE:
-        return {Fault::device, who + " refused (stalled) while " + doing + "."};
+        return {Fault::device, who + " refused (stalled) when " + when + ". " + again};
     case LIBUSB_ERROR_OVERFLOW:
-        return {Fault::device, who + " sent more than was asked for while " + doing + "."};
+        return {Fault::device, who + " sent more than was wanted when " + when + ". " + again};
     case LIBUSB_ERROR_IO:
-        return {Fault::device, who + " failed while " + doing + ". Check its cable."};
+        return {Fault::device, who + " failed when " + when + ". Check its cable."};
     default:
-        return {Fault::device, who + " failed while " + doing + ": " + libusb_strerror(code) + "."};
+        return {Fault::device, who + " failed when " + when + " (" + libusb_strerror(code) + "). " + again};
     }
 }
 

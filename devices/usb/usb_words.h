@@ -12,8 +12,8 @@ namespace ilf::devices {
 /// "DLPC350 (0451:6401) at 1-2".
 std::string inWords(const UsbIdentity& identity);
 
-/// A libusb error code, met while `doing` ("sending 64 bytes to 01").
-Error usbError(int code, const UsbIdentity& identity, const std::string& doing);
+/// A libusb error code, met `when` the device was "asked for its state".
+Error usbError(int code, const UsbIdentity& identity, const std::string& when);
 
 /// Opening was not allowed.
 Error usbPermissionError(const UsbIdentity& identity, const std::string& node);

@@ -32,7 +32,7 @@ tl::unexpected<Error> tooShort(const char* what) {
 
 VendorRequest setOutput(int channel, std::uint16_t code) {
     assert(channel >= 0 && channel < kOutputs && code < kCodes);
-    return {0x18, code, static_cast<std::uint16_t>(channel)};
+    return {0x18, code, static_cast<std::uint16_t>(channel), "told what its outputs shall hold"};
 }
 
 Bytes outputScan() {

@@ -32,6 +32,8 @@ inline constexpr int kOutputs = 2, kInputs = 8;
 /// What the device itself buffers of the outputs.
 inline constexpr std::size_t kOutputFifoBytes = 8192;
 inline constexpr std::size_t kBytesPerFrame = 2 * std::size_t{kOutputs};
+/// Of one transfer: 10 ms, and a whole number of the 64-byte packets of full speed.
+inline constexpr std::size_t kTransferFrames = 480;
 inline constexpr int kCodes = 4096;
 
 using View = std::span<const std::uint8_t>;
@@ -39,18 +41,20 @@ using View = std::span<const std::uint8_t>;
 /// Without data. Refused by the device while an output scan runs. Precondition: channel 0 or 1, code below 4096.
 VendorRequest setOutput(int channel, std::uint16_t code);
 /// Data: `outputScan()`.
-inline constexpr VendorRequest kStartOutput{0x1A, 0, 0}, kStopOutput{0x1B, 0, 0}, kClearOutput{0x1C, 0, 0};
+inline constexpr VendorRequest kStartOutput{0x1A, 0, 0, "told to start its outputs"},
+    kStopOutput{0x1B, 0, 0, "told to stop its outputs"}, kClearOutput{0x1C, 0, 0, "told to empty its outputs' buffer"};
 /// Read; 4 bytes: the code of each output. Unverified, the vendor's library does not use it.
-inline constexpr VendorRequest kReadOutputs{0x18, 0, 0};
+inline constexpr VendorRequest kReadOutputs{0x18, 0, 0, "asked what its outputs hold"};
 inline constexpr std::size_t kReadOutputsBytes = 4;
 /// Read; 2 bytes.
-inline constexpr VendorRequest kReadStatus{0x44, 0, 0};
+inline constexpr VendorRequest kReadStatus{0x44, 0, 0, "asked for its state"};
 inline constexpr std::size_t kStatusBytes = 2;
 /// Data of `kConfigureInput`: one range for each input, 0 = +-10 V against ground; of `kStartInput`: `inputScan()`.
-inline constexpr VendorRequest kStartInput{0x11, 0, 0}, kStopInput{0x12, 0, 0}, kConfigureInput{0x14, 0, 0},
-    kClearInput{0x15, 0, 0};
+inline constexpr VendorRequest kStartInput{0x11, 0, 0, "told to start its inputs"},
+    kStopInput{0x12, 0, 0, "told to stop its inputs"}, kConfigureInput{0x14, 0, 0, "told the ranges of its inputs"},
+    kClearInput{0x15, 0, 0, "told to empty its inputs' buffer"};
 /// Read; 64 bytes of the calibration memory: slope and offset of the eight inputs against ground, as 32-bit floats.
-inline constexpr VendorRequest kReadInputCalibration{0x30, 0x100, 0};
+inline constexpr VendorRequest kReadInputCalibration{0x30, 0x100, 0, "asked for its calibration"};
 inline constexpr std::size_t kInputCalibrationBytes = 64;
 
 /// Both outputs, until stopped; an underrun stalls the endpoint.

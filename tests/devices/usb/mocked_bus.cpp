@@ -68,12 +68,16 @@ TEST_CASE("usb: a device comes, is claimed, talked to, streamed to, and pulled o
         REQUIRE(link->send(out, message, kLimit));
         REQUIRE(link->receive(in, 64, kLimit) == message);
     }
-    CHECK(contains(link->receive(in, 64, Milliseconds(50)).error().what, "ran out of time"));
+    CHECK(contains(link->receive(in, 64, Milliseconds(50)).error().what,
+                   "did not answer in time when asked for data at endpoint 81. Unplug it"));
     REQUIRE(link->send(out, message, kLimit));  // and what comes after a time-out still comes
     CHECK(link->receive(in, 64, kLimit) == message);
     CHECK(link->controlIn({0x44, 0, 0}, 2, kLimit) == Bytes{0x08, 0x00});
     CHECK(link->controlOut({0x1A, 1, 2}, message, kLimit));
-    CHECK(contains(link->controlIn({0x99, 0, 0}, 2, kLimit).error().what, "refused (stalled)"));
+    CHECK(contains(link->controlIn({0x99, 0, 0}, 2, kLimit).error().what,
+                   "refused (stalled) when handling request 99. Unplug it and plug it in again."));
+    CHECK(contains(link->controlIn({0x99, 0, 0, "asked for its state"}, 2, kLimit).error().what,
+                   "refused (stalled) when asked for its state."));
     CHECK(link->clearHalt({0x02}));
 
     {

@@ -27,14 +27,17 @@ TEST_CASE("usb: a device is named by what it says and where it is") {
     CHECK(inWords(UsbIdentity{0x09DB, 0x00E8, "2-1", "", ""}) == "USB device 09db:00e8 at 2-1");
 }
 
-TEST_CASE("usb: every failure is a sentence that names the device") {
+TEST_CASE("usb: every failure says which device, when, and what would help") {
     for (const int code : {-1, -2, -3, kNoDevice, -5, -6, -7, -8, -9, -10, -11, -12, -99}) {
-        const Error error = usbError(code, kBoard, "sending");
+        const Error error = usbError(code, kBoard, "asked for its state");
+        CAPTURE(error.what);
         CHECK(error.fault == Fault::device);
-        CHECK(error.what.find("DLPC350 (0451:6401) at 1-2.3") != std::string::npos);
-        CHECK(error.what.back() == '.');
+        CHECK(error.what.starts_with("DLPC350 (0451:6401) at 1-2.3 "));
+        CHECK(error.what.find("when asked for its state") != std::string::npos);
+        // What would help comes last.
+        CHECK((error.what.ends_with("lug it in again.") || error.what.ends_with("Check its cable.")));
     }
-    CHECK(usbError(kNoDevice, kBoard, "sending").what.find("Plug it in again.") != std::string::npos);
+    CHECK(usbError(kNoDevice, kBoard, "asked for its state").what.find("Plug it in again.") != std::string::npos);
     CHECK(usbPermissionError(kBoard, "/dev/bus/usb/001/004").what.find("udev rules") != std::string::npos);
 }
 

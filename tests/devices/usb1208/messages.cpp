@@ -21,6 +21,9 @@ TEST_CASE("USB-1208FS-Plus messages: the requests are those of the reference, by
     CHECK(kStopOutput.request == 0x1B);
     CHECK(kClearOutput.request == 0x1C);
     CHECK(kReadStatus.request == 0x44);
+    for (const auto& request : {setOutput(0, 0), kStartOutput, kStopOutput, kClearOutput, kReadOutputs, kReadStatus,
+                                kStartInput, kStopInput, kConfigureInput, kClearInput, kReadInputCalibration})
+        CHECK((request.words.starts_with("told ") || request.words.starts_with("asked ")));
 }
 
 TEST_CASE("USB-1208FS-Plus messages: at 48 kS/s a sweep of 60 Hz has exactly 800 samples") {
