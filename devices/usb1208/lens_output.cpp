@@ -11,8 +11,6 @@ namespace ilf::devices {
 namespace {
 
 constexpr Milliseconds kControl{100};
-// 10 ms, and a whole number of the 64-byte packets of full speed.
-constexpr std::size_t kTransferFrames = 480;
 
 }  // namespace
 
@@ -93,7 +91,7 @@ Result<void> LensOutput::started(std::size_t samples) {
         player_.emplace(setup_.channels, samples);
     }
     // The first transfers wait in the device before it starts, else it would start with an underrun.
-    auto stream = link_->streamOut(*to, kTransferFrames * usb1208::kBytesPerFrame, setup_.transfersInFlight,
+    auto stream = link_->streamOut(*to, usb1208::kTransferFrames * usb1208::kBytesPerFrame, setup_.transfersInFlight,
                                    [this](std::span<std::uint8_t> frames) {
                                        const std::scoped_lock lock(mutex_);
                                        player_->fill(frames);
@@ -101,13 +99,15 @@ Result<void> LensOutput::started(std::size_t samples) {
     if (!stream) return tl::unexpected(std::move(stream.error()));
     stream_ = *std::move(stream);
     sweeping_ = true;
+    streamRests_ = false;
     startedAt_ = clock_.now();
     return link_->controlOut(usb1208::kStartOutput, usb1208::outputScan(), kControl);
 }
 
 Result<void> LensOutput::slip(int samples) {
     if (auto ok = usable(); !ok) return ok;
-    if (!sweeping_) return fail(Fault::unsupported, "The lenses are at rest: there is no sweep to slip.");
+    if (!sweeping_)
+        return fail(Fault::unsupported, "The lenses are at rest: there is no sweep to slip. Start one first.");
     const std::scoped_lock lock(mutex_);
     player_->slip(samples);
     return {};
@@ -115,7 +115,8 @@ Result<void> LensOutput::slip(int samples) {
 
 Result<Change> LensOutput::shift(int samples) {
     if (auto ok = usable(); !ok) return tl::unexpected(ok.error());
-    if (!sweeping_) return fail(Fault::unsupported, "The lenses are at rest: there is no sweep to shift.");
+    if (!sweeping_)
+        return fail(Fault::unsupported, "The lenses are at rest: there is no sweep to shift. Start one first.");
     const std::scoped_lock lock(mutex_);
     return player_->shift(samples);
 }

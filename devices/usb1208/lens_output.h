@@ -58,8 +58,9 @@ public:
     /// Whether it still does what it was told; to be called every 100 ms.
     Result<LensOutputReport> heartbeat();
     /// Ramps to rest within 100 ms and holds it: from what the outputs read back, else from what they were told last,
-    /// and in one step only where neither is known. Works from any state; an error means that the device could not be
-    /// told, and then is gone or must be unplugged.
+    /// and in one step only where neither is known. A device that refuses to be told but goes on taking samples is
+    /// brought to rest by those, later by what is queued and buffered. Works from any state; an error means that the
+    /// device could not be told, and then is gone or must be unplugged.
     Result<void> safe();
 
     /// Where a sample that is or was played stands; none at rest.
@@ -79,6 +80,7 @@ private:
     Result<void> usable() const;
     Result<LensOutputReport> checkedNow();
     Result<void> stopped();
+    bool restedByStream();
     Result<void> held(Ampere left, Ampere right);
     std::optional<std::pair<Ampere, Ampere>> readOutputs();
     tl::unexpected<Error> faulted(Error error);
@@ -88,6 +90,7 @@ private:
     Clock clock_;
     std::optional<Error> fault_;
     bool readsBack_ = false, sweeping_ = false;
+    bool streamRests_ = false;  ///< could not be stopped, and plays nothing but rest that it was sent
     std::optional<std::pair<Ampere, Ampere>> told_;  ///< last, left and right; none: nothing yet
     std::chrono::nanoseconds startedAt_{0};
     mutable std::mutex mutex_;  ///< guards `player_`

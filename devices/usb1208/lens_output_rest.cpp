@@ -13,6 +13,10 @@ constexpr Milliseconds kControlAtRest{20};
 // 40 ms of steps: with the requests' own time inside 100 ms.
 constexpr int kSteps = 8;
 constexpr Milliseconds kStep{5};
+// As long, in samples.
+constexpr std::int64_t kRampFrames = 1920;
+// A transfer is taken every 10 ms; after this long without one, on a computer that is busy, none will be.
+constexpr Milliseconds kNoneTaken{250};
 
 }  // namespace
 
@@ -28,6 +32,7 @@ Result<void> LensOutput::safe() {
     // Playing out what is buffered would take 80 ms before the first step: the scan is cut off, and the ramp goes by
     // single writes. A cut stops the lens where it is, which is no steeper than any sweep.
     const auto stop = stopped();
+    if (streamRests_) return {};
     const auto& [left, right] = setup_.channels;
     const auto from = readOutputs().value_or(told_.value_or(std::pair(left.rest, right.rest)));
     Result<void> last;
@@ -46,6 +51,7 @@ Result<void> LensOutput::stopped() {
     // A single disturbance is no reason to let it run.
     auto stop = link_->controlOut(usb1208::kStopOutput, {}, kControlAtRest);
     if (!stop) stop = link_->controlOut(usb1208::kStopOutput, {}, kControlAtRest);
+    streamRests_ = !stop && (streamRests_ || restedByStream());
     stream_.reset();
     sweeping_ = false;
     {
@@ -53,9 +59,29 @@ Result<void> LensOutput::stopped() {
         if (player_) told_.emplace(player_->lastLeft(), player_->lastRight());
         player_.reset();
     }
+    if (streamRests_) return stop;
     // What was cut off must not be played when the next scan starts; that start clears again, so an error waits for it.
     link_->controlOut(usb1208::kClearOutput, {}, kControlAtRest);
     return stop;
+}
+
+/// Requests and samples go to different endpoints: a device that refuses to be stopped plays what it is sent all the
+/// same. Once the stream ends it holds its last sample, so it rests as soon as all it can still hold is rest: what was
+/// made, but for what is in flight, is in the device, and what is in the device, but for its buffer, was played.
+bool LensOutput::restedByStream() {
+    if (!stream_) return false;
+    const auto behind = static_cast<std::int64_t>(usb1208::kTransferFrames) * setup_.transfersInFlight +
+                        static_cast<std::int64_t>(usb1208::kOutputFifoBytes / usb1208::kBytesPerFrame);
+    std::int64_t made = -1;
+    for (auto taken = clock_.now(); clock_.now() - taken < kNoneTaken; clock_.wait(kStep)) {
+        if (!stream_->state()) return false;
+        const std::scoped_lock lock(mutex_);
+        player_->rest(kRampFrames);
+        const auto rests = player_->restsSince();
+        if (rests && player_->frames() - *rests >= behind) return true;
+        if (std::exchange(made, player_->frames()) != player_->frames()) taken = clock_.now();
+    }
+    return false;
 }
 
 Result<void> LensOutput::held(Ampere left, Ampere right) {

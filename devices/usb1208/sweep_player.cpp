@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "devices/usb1208/messages.h"
@@ -12,14 +13,14 @@
 namespace ilf::devices {
 namespace {
 
-const Second kStep = Second::fromSi(1.0 / usb1208::kSampleRateHz);
+const Second kSampleStep = Second::fromSi(1.0 / usb1208::kSampleRateHz);
 // A wave may use so much of the slope that the amplifier allows: the rest is for fading and slipping.
 constexpr double kSlopeForWaves = 0.9;
 // A fade longer than this would be a fault in the waves, not a change.
 constexpr int kMostFadeSweeps = 120;
 constexpr std::int64_t kRemembered = 2 * static_cast<std::int64_t>(usb1208::kSampleRateHz);
 
-double mostStep(const Amplifier& amplifier) { return amplifier.slew.si() * kStep.si(); }
+double mostStep(const Amplifier& amplifier) { return amplifier.slew.si() * kSampleStep.si(); }
 
 double steepest(const std::vector<double>& wave) {
     double most = std::abs(wave.front() - wave.back());
@@ -50,7 +51,8 @@ Result<std::vector<double>> sampledOne(const LensChannel& channel, const Wavefor
                     "The plan says what power the " + name +
                         " lens shall have but not how to drive it. Choose a calibrated lens, so that "
                         "the wave comes with its drive.");
-    if (!isFinite(wave.drive)) return fail(Fault::badFile, "The drive of the " + name + " lens is not a number.");
+    if (!isFinite(wave.drive))
+        return fail(Fault::badFile, "The drive of the " + name + " lens is not a number. Calibrate the lens again.");
     auto currents = samplesOf(wave.drive, samples);
     for (double& current : currents)
         current = currentOf(amplifier, current, wave.unit).si();
@@ -75,7 +77,8 @@ Result<std::vector<double>> sampledOne(const LensChannel& channel, const Wavefor
 
 Result<SweepSamples> sampled(const LensChannels& channels, const Waveform& left, const Waveform& right) {
     if (left.rate != right.rate)
-        return fail(Fault::unsupported, "Both lenses must sweep at the same rate; the plan has two.");
+        return fail(Fault::unsupported,
+                    "Both lenses must sweep at the same rate; the plan has two. Plan both for one.");
     const auto count = usb1208::samplesPerSweep(left.rate);
     if (!count) return tl::unexpected(count.error());
     const auto samples = static_cast<std::size_t>(*count);
@@ -97,35 +100,55 @@ SweepPlayer::SweepPlayer(const LensChannels& channels, std::size_t samples)
 }
 
 void SweepPlayer::fill(std::span<std::uint8_t> frames) {
-    const double fadeLength = static_cast<double>(fadeSweeps_) * static_cast<double>(now_.size()) + 1.0;
+    const auto& [l, r] = channels_;
     for (std::size_t at = 0; at + usb1208::kBytesPerFrame <= frames.size(); at += usb1208::kBytesPerFrame) {
-        if (sample_ == 0 && !repeating_) beginSweep();
-        double left = now_.left[sample_], right = now_.right[sample_];
-        if (fading_) {
-            const std::size_t faded = static_cast<std::size_t>(fadedSweeps_) * now_.size() + sample_ + 1;
-            const double share = static_cast<double>(faded) / fadeLength;
-            left += share * (next_->left[sample_] - left);
-            right += share * (next_->right[sample_] - right);
+        double left = l.rest.si(), right = r.rest.si();
+        if (toRest_) {
+            const double share =
+                std::min(1.0, static_cast<double>(made_ - toRest_->begins + 1) / static_cast<double>(toRest_->frames));
+            left = std::lerp(toRest_->left.si(), left, share);
+            right = std::lerp(toRest_->right.si(), right, share);
+        } else {
+            if (sample_ == 0 && !repeating_) beginSweep();
+            std::tie(left, right) = sweepSample();
         }
-        const auto& [l, r] = channels_;
-        left_ = limited(l.amplifier, left_, Ampere::fromSi(left), kStep);
-        right_ = limited(r.amplifier, right_, Ampere::fromSi(right), kStep);
+        left_ = limited(l.amplifier, left_, Ampere::fromSi(left), kSampleStep);
+        right_ = limited(r.amplifier, right_, Ampere::fromSi(right), kSampleStep);
         usb1208::putSample(frames.subspan(at, 2), usb1208::outputCode(voltsFor(l.amplifier, left_)));
         usb1208::putSample(frames.subspan(at + 2, 2), usb1208::outputCode(voltsFor(r.amplifier, right_)));
+        if (toRest_ && !restsSince_ && left_ == l.rest && right_ == r.rest) restsSince_ = made_;
         ++made_;
-
-        repeating_ = slipNow_ > 0 && sample_ == slipAt_;
-        if (repeating_) {
-            slipNow_ = 0;
-            continue;
-        }
-        ++sample_;
-        if (slipNow_ < 0 && sample_ == slipAt_) {
-            slipNow_ = 0;
-            ++sample_;
-        }
-        if (sample_ == now_.size()) sample_ = 0;
+        if (!toRest_) nextSample();
     }
+}
+
+std::pair<double, double> SweepPlayer::sweepSample() const {
+    double left = now_.left[sample_], right = now_.right[sample_];
+    if (!fading_) return {left, right};
+    const std::size_t faded = static_cast<std::size_t>(fadedSweeps_) * now_.size() + sample_ + 1;
+    const double share =
+        static_cast<double>(faded) / (static_cast<double>(fadeSweeps_) * static_cast<double>(now_.size()) + 1.0);
+    left += share * (next_->left[sample_] - left);
+    right += share * (next_->right[sample_] - right);
+    return {left, right};
+}
+
+void SweepPlayer::nextSample() {
+    repeating_ = slipNow_ > 0 && sample_ == slipAt_;
+    if (repeating_) {
+        slipNow_ = 0;
+        return;
+    }
+    ++sample_;
+    if (slipNow_ < 0 && sample_ == slipAt_) {
+        slipNow_ = 0;
+        ++sample_;
+    }
+    if (sample_ == now_.size()) sample_ = 0;
+}
+
+void SweepPlayer::rest(std::int64_t frames) {
+    if (!toRest_) toRest_ = WayToRest{made_, std::max<std::int64_t>(1, frames), left_, right_};
 }
 
 void SweepPlayer::beginSweep() {
@@ -182,7 +205,7 @@ void SweepPlayer::finishFade() {
 
 Result<Change> SweepPlayer::planned(SweepSamples next, int fadesAtLeast) {
     if (next.left.size() != now_.size() || next.right.size() != now_.size())
-        return fail(Fault::unsupported, "Another sweep rate can only start from rest.");
+        return fail(Fault::unsupported, "Another sweep rate can only start from rest. Let the lenses rest first.");
     if (fading_)
         return fail(Fault::device, "The lenses are still fading from one wave into another. Try again in a moment.");
     int fades = fadesAtLeast;

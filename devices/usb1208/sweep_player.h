@@ -1,4 +1,5 @@
-// The endless stream of samples for both lenses: sweeps that follow each other, swap, slip and shift without a jump.
+// The endless stream of samples for both lenses: sweeps that follow each other, swap, slip, shift and rest without a
+// jump.
 #pragma once
 
 #include <complex>
@@ -6,6 +7,7 @@
 #include <deque>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -69,6 +71,10 @@ public:
     /// Moves the sweep's start by so many samples (later is positive) by fading into the moved wave. For aligning
     /// before light is slotted; refused like a swap.
     Result<Change> shift(int samples);
+    /// From the next frame on both lenses go to rest, evenly over so many frames, and stay there whatever else is told.
+    void rest(std::int64_t frames);
+    /// The first frame from which on both play rest because of `rest`; none: not yet.
+    std::optional<std::int64_t> restsSince() const { return restsSince_; }
 
     std::int64_t frames() const { return made_; }
     /// What AO0 plays over and over, for hearing where it stands.
@@ -90,6 +96,8 @@ private:
     struct Start {
         std::int64_t frame = 0, moved = 0;
     };
+    std::pair<double, double> sweepSample() const;
+    void nextSample();
     void beginSweep();
     void finishFade();
     Result<Change> planned(SweepSamples next, int fadesAtLeast);
@@ -105,6 +113,12 @@ private:
     bool repeating_ = false;
     std::int64_t made_ = 0, moved_ = 0, alone_ = 0;
     Ampere left_, right_;
+    struct WayToRest {
+        std::int64_t begins = 0, frames = 0;
+        Ampere left, right;  ///< where from
+    };
+    std::optional<WayToRest> toRest_;
+    std::optional<std::int64_t> restsSince_;
     std::deque<Start> starts_;
 };
 

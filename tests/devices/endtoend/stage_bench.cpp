@@ -36,9 +36,10 @@ struct DaqLink::Out final : UsbStream {
             const std::size_t whole = first.size();
             const auto moved = link.daq_.out(0x02, first, link.bench_.now_ns());
             first.erase(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(moved.bytes));
-            if (moved.answer == UsbAnswer::busy) return;
-            if (moved.answer != UsbAnswer::done) {
-                ended = moved.answer;
+            const auto answer = link.noticed(moved.answer);
+            if (answer == UsbAnswer::busy) return;
+            if (answer != UsbAnswer::done) {
+                ended = answer;
                 return;
             }
             Bytes next(std::max(whole, size));
@@ -68,7 +69,8 @@ struct DaqLink::In final : UsbStream {
         while (!ended) {
             const auto moved = link.daq_.in(0x81, std::span(room).subspan(filled), link.bench_.now_ns());
             filled += moved.bytes;
-            if (moved.answer == UsbAnswer::stall || moved.answer == UsbAnswer::gone) ended = moved.answer;
+            const auto answer = link.noticed(moved.answer);
+            if (answer == UsbAnswer::stall || answer == UsbAnswer::gone) ended = answer;
             if (filled < room.size()) return;
             taken(room);
             filled = 0;
@@ -79,7 +81,13 @@ struct DaqLink::In final : UsbStream {
 tl::unexpected<Error> DaqLink::failed(UsbAnswer answer) {
     return fail(Fault::device, answer == UsbAnswer::gone    ? "USB-1208FS-Plus at 1-3 is gone. Plug it in again."
                                : answer == UsbAnswer::stall ? "USB-1208FS-Plus at 1-3 refused (stalled)."
-                                                            : "USB-1208FS-Plus at 1-3 ran out of time.");
+                                                            : "USB-1208FS-Plus at 1-3 did not answer in time.");
+}
+
+/// What is gone stays gone, whatever the box would say to what is asked next.
+UsbAnswer DaqLink::noticed(UsbAnswer answer) {
+    gone_ = gone_ || answer == UsbAnswer::gone;
+    return gone_ ? UsbAnswer::gone : answer;
 }
 
 void DaqLink::pump() {
@@ -96,7 +104,7 @@ Result<std::size_t> DaqLink::control(std::uint8_t type, const VendorRequest& r, 
     bench_.advance(250'000);
     const auto length = static_cast<std::uint16_t>(data.size());
     const auto moved = daq_.control({type, r.request, r.value, r.index, length}, data, bench_.now_ns());
-    if (moved.answer != UsbAnswer::done) return failed(moved.answer);
+    if (const auto answer = noticed(moved.answer); answer != UsbAnswer::done) return failed(answer);
     return moved.bytes;
 }
 
@@ -200,8 +208,10 @@ public:
         if (owner_.displayUnplugged_) return gone();
         const bool failing = owner_.spoils && owner_.spoils();
         if (failing && !owner_.afterEffect) return spoilt();
-        shown = frame;
-        owner_.bench.present({frame.size(), {frame.pixels().begin(), frame.pixels().end()}});
+        if (shown != frame) {  // white is shown over and over, and copying it takes longer than all else
+            shown = frame;
+            owner_.bench.present({frame.size(), {frame.pixels().begin(), frame.pixels().end()}});
+        }
         const std::int64_t now = owner_.bench.now_ns(), frames = now / Bench::kFrame_ns + 1;
         owner_.bench.advance(frames * Bench::kFrame_ns - now);
         if (failing) return spoilt();

@@ -55,12 +55,14 @@ private:
     struct In;
     Result<std::size_t> control(std::uint8_t type, const VendorRequest& request, std::span<std::uint8_t> data);
     static tl::unexpected<Error> failed(emulators::UsbAnswer answer);
+    emulators::UsbAnswer noticed(emulators::UsbAnswer answer);
 
     Bench& bench_;
     emulators::EmulatedDaq& daq_;
     DaqLink*& open_;
     Out* out_ = nullptr;
     In* in_ = nullptr;
+    bool gone_ = false;  ///< its cable was pulled in the middle of a transfer
     UsbIdentity identity_{0x09DB, 0x00E8, "1-3", "USB-1208FS-Plus", "01F0A1B2"};
 };
 

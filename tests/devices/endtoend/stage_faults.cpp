@@ -2,6 +2,7 @@
 // The README's table of faults is this file in words.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -160,17 +161,27 @@ TEST_CASE("faults of a show: clocks that drift are followed, and too far apart a
     CHECK(room.played(show()));
 }
 
-TEST_CASE("faults of a show: a picture that stays is not told by the board, and ends with plain video") {
+TEST_CASE("faults of a show: a picture that stays is not told by the board, and ends in white when it is let go") {
     Playing evening;
     evening.room.bench.board.setFaults({{Mishap::stuckFrame}});
     CHECK(evening.reads() == "nothing");  // nothing on the cables tells; comparing light received with intended does
     evening.room.stage->safeLight();
-    evening.endsLitAndAtRest();  // as video, which has no buffers to swap
+    evening.endsLitAndAtRest();  // by what the display is told
+    const auto lit = [&] {
+        (void)evening.room.bench.takeLight();
+        evening.room.bench.frames(60);
+        const auto light = evening.room.bench.takeLight();
+        REQUIRE_FALSE(light.empty());
+        CHECK(light.back().video);
+        return std::ranges::all_of(taken(light.back(), 0).light.pixels(), [](std::uint8_t v) { return v == 255; });
+    };
+    CHECK_FALSE(lit());
     evening.room.bench.board.setFaults({});
+    CHECK(lit());
     CHECK(evening.room.played(show()));
 }
 
-TEST_CASE("faults of a show: the lenses' box refuses or is silent") {
+TEST_CASE("faults of a show: the lenses' box refuses or is silent for a moment") {
     for (const auto& [kind, words] :
          {std::pair(Mishap::nack, "refused (stalled)"), std::pair(Mishap::silence, "ran out of samples")}) {
         CAPTURE(words);
@@ -179,6 +190,48 @@ TEST_CASE("faults of a show: the lenses' box refuses or is silent") {
         const std::string read = evening.reads();
         CHECK_MESSAGE(contains(read, words), read);
         evening.endsLitAndAtRest();
+        evening.recovers();
+    }
+}
+
+TEST_CASE("faults of a show: the lenses' box refuses for good, and is brought to rest by its samples") {
+    Playing evening;
+    evening.room.daq.setFaults({{Mishap::nack}});
+    const std::string read = evening.reads();
+    CHECK_MESSAGE(contains(read, "refused (stalled)"), read);
+    CHECK_FALSE(contains(read, "Where the lens is"));
+    CHECK(evening.room.white());
+    CHECK(evening.room.line("lenses").health == DeviceHealth::silent);
+    for (int i = 0; i < 20; ++i) {
+        const auto codes = evening.room.daq.outputs(evening.room.bench.now_ns()).codes;
+        CHECK(std::abs(int(codes[0]) - 2048) <= 1);
+        CHECK(std::abs(int(codes[1]) - 2048) <= 1);
+        evening.room.beats(1);
+    }
+    evening.recovers();
+}
+
+TEST_CASE("faults of a show: the lenses' box is silent for good, and holds them until it answers or has no power") {
+    for (const bool unplugged : {false, true}) {
+        CAPTURE(unplugged);
+        Playing evening;
+        auto& room = evening.room;
+        room.daq.setFaults({{Mishap::silence}});
+        const std::string read = evening.reads();
+        CHECK_MESSAGE(contains(read, "did not answer in time"), read);
+        CHECK(contains(read, "Where the lens is, is not known."));
+        CHECK(room.white());
+        const auto held = room.daq.outputs(room.bench.now_ns());
+        room.beats(10);
+        CHECK(room.daq.outputs(room.bench.now_ns()).codes == held.codes);
+        if (unplugged) {
+            room.unplugLenses();
+            const auto cut = room.daq.outputs(room.bench.now_ns());
+            CHECK(room.daq.current_mA(cut, 0) == 0.0);
+            CHECK(room.daq.current_mA(cut, 1) == 0.0);
+            CHECK(room.white());
+            room.lensesUnplugged = false;
+        }
         evening.recovers();
     }
 }
@@ -196,7 +249,17 @@ TEST_CASE("faults of a show: the lenses' box stalls or runs out of samples") {
     }
 }
 
-TEST_CASE("faults of a show: the lenses' cable is pulled") {
+TEST_CASE("faults of a show: the lenses' cable is pulled, at any byte") {
+    for (const std::uint64_t bytes : {0U, 1U, 63U, 64U, 1000U, 5000U}) {
+        CAPTURE(bytes);
+        Playing evening;
+        evening.room.daq.setFaults({{Mishap::unplug, bytes, 1}});
+        const std::string read = evening.reads();
+        CHECK_MESSAGE(contains(read, "Plug it in again."), read);
+        CHECK(contains(read, "Where the lens is, is not known."));
+        CHECK(evening.room.white());
+        evening.recovers();
+    }
     Playing evening;
     evening.room.unplugLenses();
     const std::string read = evening.reads();

@@ -21,6 +21,7 @@ struct FakeDac {
     // What it is.
     bool readsBack = true;
     bool deaf = false;                                                 ///< takes requests and does nothing
+    bool refuses = false;                                              ///< every request, and takes samples
     bool starves = false;                                              ///< the host no longer fills its transfers
     std::function<double(double)> input = [](double) { return 0.0; };  ///< volts at AI0, by seconds
     std::function<double(double)> secondInput = [](double) { return 0.0; };
@@ -146,6 +147,7 @@ public:
     Result<void> controlOut(const VendorRequest& r, std::span<const std::uint8_t> data, Milliseconds) override {
         if (dac_.failing()) return broken();
         dac_.pass(std::chrono::microseconds(250));
+        if (dac_.refuses) return stalled();
         if (dac_.deaf) return {};
         const auto u32 = [&](std::size_t i) {
             std::uint32_t value = 0;
@@ -193,6 +195,7 @@ public:
     Result<Bytes> controlIn(const VendorRequest& r, std::size_t length, Milliseconds) override {
         if (dac_.failing()) return broken();
         dac_.pass(std::chrono::microseconds(250));
+        if (dac_.refuses) return fail(Fault::device, "the request stalled");
         const auto low = [](int value) { return static_cast<std::uint8_t>(value & 255); };
         const auto high = [](int value) { return static_cast<std::uint8_t>(value >> 8); };
         if (r.request == 0x44 && length == 2) {

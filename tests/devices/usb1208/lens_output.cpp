@@ -189,6 +189,62 @@ TEST_CASE("lens output: what goes wrong is told, ends in rest, and stays until i
     CHECK(rests(dac));
 }
 
+TEST_CASE("lens output: a box that refuses every request and goes on playing is brought to rest by its samples") {
+    for (const bool throughError : {true, false}) {
+        CAPTURE(throughError);
+        FakeDac dac;
+        auto output = opened(dac);
+        REQUIRE(output);
+        REQUIRE((*output)->play(driven(240.0), driven(-240.0)));
+        dac.pass(std::chrono::milliseconds(504));
+        while (std::abs(dac.codes[0] - kRest[0]) < 1000)  // there is a way to go
+            dac.pass(std::chrono::milliseconds(1));
+        dac.refuses = true;
+        const auto before = dac.at;
+        if (throughError)
+            CHECK(says((*output)->heartbeat().error(), "the request stalled"));
+        else
+            CHECK((*output)->safe());
+        CHECK(dac.codes == kRest);
+        CHECK(dac.at - before <= std::chrono::milliseconds(150));  // what was queued, the buffer and the ramp
+        CHECK_FALSE(dac.underrun);
+        CHECK(dac.out == nullptr);
+        int steepest = 0;
+        for (std::size_t i = 1; i < dac.played.size(); ++i)
+            steepest = std::max(steepest, std::abs(dac.played[i][0] - dac.played[i - 1][0]));
+        CHECK(steepest <= 172);
+        // It stays there without any sample, is known to, and obeys once it listens.
+        dac.pass(std::chrono::seconds(1));
+        CHECK(dac.codes == kRest);
+        CHECK((*output)->safe());
+        dac.refuses = false;
+        CHECK((*output)->safe());
+        CHECK(rests(dac));
+        if (!throughError) CHECK((*output)->play(driven(240.0), driven(-240.0)));
+        dac.pass(std::chrono::milliseconds(300));
+        CHECK((*output)->heartbeat().has_value() == !throughError);
+    }
+}
+
+TEST_CASE("lens output: a box that refuses every request and takes no samples either is not called at rest") {
+    FakeDac dac;
+    const auto output = opened(dac);
+    REQUIRE(output);
+    REQUIRE((*output)->play(driven(240.0), driven(240.0)));
+    dac.pass(std::chrono::milliseconds(504));
+    dac.refuses = true;
+    SUBCASE("whose buffer has played out") {
+        dac.starves = true;
+        dac.pass(std::chrono::milliseconds(90));
+    }
+    SUBCASE("whose buffer still lasts") { dac.starves = true; }
+    SUBCASE("which has stopped by itself, its buffer full") { dac.outputRuns = false; }
+    const auto before = dac.at;
+    CHECK_FALSE((*output)->safe());
+    CHECK(dac.at - before <= std::chrono::milliseconds(500));
+    CHECK(dac.out == nullptr);
+}
+
 TEST_CASE("lens output: at rest, outputs that move or run by themselves are noticed") {
     FakeDac dac;
     const auto output = opened(dac);

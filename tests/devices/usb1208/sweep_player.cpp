@@ -71,6 +71,45 @@ Waveform driven(double amplitude_mA, Hertz rate = 60.0_Hz) {
 
 }  // namespace
 
+TEST_CASE("sweep player: told to rest, it goes there evenly from wherever it is and stays, whatever else is told") {
+    for (const bool fading : {false, true}) {
+        SweepPlayer player(channels(), 800);
+        REQUIRE(player.swap(cosine(200.0)));
+        auto before = heard(player, 4000);
+        if (fading) {
+            REQUIRE(player.swap(cosine(200.0, 0.0, 0.5)));
+            before = heard(player, 100);
+        }
+        CHECK_FALSE(player.restsSince());
+        const auto from = player.frames();
+        player.rest(1920);
+        const auto after = heard(player, 3000);
+        const double first = before.left.back();
+        REQUIRE(std::abs(first - 20.0) > 50.0);
+        for (std::size_t i = 0; i < 1920; ++i) {
+            const double share = static_cast<double>(i + 1) / 1920.0;
+            CHECK(std::abs(after.left[i] - (first + share * (20.0 - first))) <= 2.0 * kCodeMilliamperes);
+        }
+        CHECK(player.restsSince() == from + 1919);
+        (void)player.swap(cosine(100.0));
+        player.slip(1);
+        player.rest(10);
+        const auto later = heard(player, 3000);
+        for (std::size_t i = 0; i < later.left.size(); ++i) {
+            CHECK(std::abs(later.left[i] - 20.0) <= kCodeMilliamperes);
+            CHECK(std::abs(later.right[i] + 10.0) <= kCodeMilliamperes);
+        }
+        CHECK(player.restsSince() == from + 1919);
+    }
+    // From full current in one frame is more than an amplifier may: as fast as it may.
+    SweepPlayer hurried(channels(), 800);
+    REQUIRE(hurried.swap(cosine(200.0)));
+    (void)heard(hurried, 2400);
+    hurried.rest(1);
+    CHECK(steepest(heard(hurried, 100).left) <= kMostStepMilliamperes);
+    CHECK(hurried.restsSince());
+}
+
 TEST_CASE("sweep player: it plays rest until it is told otherwise") {
     SweepPlayer player(channels(), 800);
     const auto rest = heard(player, 2000);
