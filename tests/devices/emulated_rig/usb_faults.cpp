@@ -2,56 +2,14 @@
 // X server. Needs libumockdev-preload.so.0 in LD_PRELOAD, as ctest sets it, and Xvfb; says so where one is missing.
 #include <doctest/doctest.h>
 
-#include <algorithm>
-
-#include "core/lens/waveform.h"
 #include "devices/rig/video_output.h"
 #include "devices/video/display_output.h"
-#include "tests/devices/emulated_rig/running_rig.h"
-#include "tests/devices/endtoend/bench.h"
+#include "tests/devices/emulated_rig/rig_faults.h"
 
 using namespace ilf;
 using namespace ilf::devices;
 using namespace ilf::devices::test;
 using namespace std::chrono_literals;
-
-namespace {
-
-Program playing() {
-    Program program = sweepOf(6, 80);
-    program.waveform = idealSine(0.5_D, -2.0_D, 3.0_D, 60.0_Hz, 0.0_s);
-    program.waveform.unit = DriveUnit::ampere;
-    program.waveform.drive.c = {0.0, 0.1};
-    program.projectorDelay = {};
-    return program;
-}
-
-template <class Holds>
-bool soon(Holds holds) {
-    const auto until = std::chrono::steady_clock::now() + 5s;
-    while (std::chrono::steady_clock::now() < until) {
-        if (holds()) return true;
-        std::this_thread::sleep_for(20ms);
-    }
-    return false;
-}
-
-/// One picture for all of a sweep, full light, as video.
-bool steadyWhite(DeviceClient& client) {
-    Received received;
-    const auto sweep = receivedSweep(client, received);
-    return !received.patterns && sweep.size() == 1 && received.exposures[0].video &&
-           std::ranges::all_of(sweep[0].light.pixels(), [](std::uint8_t value) { return value == 255; });
-}
-
-bool atRest(DeviceClient& client) {
-    const auto received = client.readReceived();
-    if (!received) return false;
-    const auto [low, high] = std::ranges::minmax(received->left);
-    return high - low < 0.02_D && received->most_mA[0] < 1.0;
-}
-
-}  // namespace
 
 TEST_CASE("emulated rig: switched on it gives white video and rests; each cable can be pulled and put back") {
     RunningRig rig;
@@ -111,7 +69,7 @@ TEST_CASE("emulated rig: whatever is pulled or fails during a show, light ends w
           Case{"projector", "wrong-mode", "none"}}) {
         CAPTURE(device);
         CAPTURE(kind);
-        REQUIRE(stage->load(playing()));
+        REQUIRE(stage->load(shownOnRig()));
         const auto swapped = stage->swap();
         if (!swapped) FAIL(swapped.error().what);
         REQUIRE(rig.befalls(device, kind));
@@ -126,4 +84,75 @@ TEST_CASE("emulated rig: whatever is pulled or fails during a show, light ends w
             return steadyWhite(rig.client()) && atRest(rig.client());
         }));
     }
+}
+
+TEST_CASE("emulated rig: a projector that refuses or is silent for good is white in all its slots, lenses at rest") {
+    RunningRig rig;
+    if (rig.refused()) {
+        MESSAGE("SKIPPED: ", *rig.refused());
+        return;
+    }
+    for (const auto& [kind, words] :
+         {std::pair("nack", "refused to tell its"), std::pair("silence", "did not answer")}) {
+        CAPTURE(kind);
+        const auto stage = rig.stage(4);
+        const std::string read = readAt(rig, *stage, {"projector", kind, 0, 0, 0.0}, words);
+        CHECK_MESSAGE(contains(read, words), read);
+        CHECK(contains(read, "The LightCrafter 4500 at 1-2"));
+        CHECK(contains(read, "The projector's light is not known."));
+        CHECK(soon([&] { return whiteInEverySlot(rig.client()) && atRest(rig.client()); }));
+        CHECK(lineOf(*stage, "projector").health == DeviceHealth::silent);
+        REQUIRE(rig.befalls("projector", "none"));
+        CHECK(soon([&] {
+            (void)stage->heartbeat();
+            return steadyWhite(rig.client()) && atRest(rig.client());
+        }));
+    }
+}
+
+TEST_CASE(
+    "emulated rig: a picture that stays is told by no cable, only by the light, and ends in white when it is let go") {
+    RunningRig rig;
+    if (rig.refused()) {
+        MESSAGE("SKIPPED: ", *rig.refused());
+        return;
+    }
+    const auto stage = rig.stage(4);
+    const auto shows = [&](const Program& program) {
+        Received received;
+        return compared(intendedSweep(program, 4), receivedSweep(rig.client(), received)).same();
+    };
+    const Program first = shownOnRig(80), second = shownOnRig(81);
+    for (int tries = 0; tries < kTries; ++tries) {
+        REQUIRE(played(*stage, first));
+        REQUIRE(soon([&] { return shows(first); }));
+        REQUIRE(rig.befalls("projector", "stuck-frame"));
+        REQUIRE(stage->load(second));
+        const auto swapped = stage->swap();
+        const auto from = rig.client().readReceived()->frames;
+        std::optional<std::string> trouble = swapped ? std::nullopt : std::optional(swapped.error().what);
+        while (!trouble && rig.client().readReceived()->frames < from + 60)
+            trouble = playedFor(*stage, 100ms);
+        if (trouble && tries + 1 < kTries) {  // a busy machine
+            MESSAGE("taken again: ", *trouble);
+            REQUIRE(rig.befalls("projector", "none"));
+            continue;
+        }
+        CHECK_MESSAGE(!trouble, trouble.value_or(""));
+        break;
+    }
+    CHECK(shows(first));
+    CHECK_FALSE(shows(second));
+    CHECK(stage->report().light == LightMode::slotted);
+    // Safe light is the display's white, as video, which a board that holds its picture does not show either.
+    stage->safeLight();
+    const auto video = [&] {
+        (void)stage->heartbeat();
+        const auto received = rig.client().readReceived();
+        return received && !received->patterns && received->exposures.size() == 1 && atRest(rig.client());
+    };
+    CHECK(soon(video));
+    CHECK_FALSE(steadyWhite(rig.client()));
+    REQUIRE(rig.befalls("projector", "none"));
+    CHECK(soon([&] { return video() && steadyWhite(rig.client()); }));
 }
