@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 
 #include "app/output_core/roles.h"
@@ -43,6 +44,13 @@ int run(int argc, char** argv) {
     options.add_option("--simulated-lens", lensWord, "The lens of a simulated or emulated rig")
         ->check(CLI::IsMember({"slow", "datasheet", "lively", "clean", "dirty", "ideal"}))
         ->capture_default_str();
+    std::string tapes;
+    options
+        .add_option(
+            "--tapes", tapes,
+            "A folder for tapes: every exchange with each USB device (but the samples it streams), as text, some "
+            "10 MB an hour")
+        ->check(CLI::ExistingDirectory);
     options.add_flag("--leave-devices", leaveDevices, "Leave simulated or emulated devices on when stopping");
     auto* stopFlag = options.add_flag("--stop", stop, "Stop the output core that runs, in safe light");
     options.add_flag("--release-display", releaseDisplay, "With --stop: the projector's display, too, is given back")
@@ -77,6 +85,7 @@ int run(int argc, char** argv) {
         return refused({ilf::Fault::unsupported, "The emulated rig drives a lens by its coil, which the ideal one does "
                                                  "not have: choose slow, datasheet, lively, clean or dirty."},
                        2);
+    if (!tapes.empty()) played->tapes = std::filesystem::absolute(tapes);
     if (guard && !ilf::app::lightsThroughDisplay(*played))
         return refused({ilf::Fault::unsupported, "This rig has no display to keep white."}, 2);
     if (const auto ready = ilf::devices::prepareRuntimeDirectory(directory); !ready) return refused(ready.error(), 3);

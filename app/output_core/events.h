@@ -49,6 +49,8 @@ inline constexpr Event kMadeSafe{205, Weight::info, "stage made safe"};
 inline constexpr Event kNotSafe{206, Weight::error, "stage could not be made safe"};
 inline constexpr Event kCannotPlay{207, Weight::error, "this rig cannot be played"};
 inline constexpr Event kStage{208, Weight::info, "stage"};
+inline constexpr Event kTape{209, Weight::info, "tape of a device"};
+inline constexpr Event kNoTape{210, Weight::warning, "no tape of a device"};
 
 // 3xx: the link to studios.
 inline constexpr Event kStudioConnected{301, Weight::info, "a studio connected"};

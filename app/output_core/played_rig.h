@@ -20,6 +20,7 @@ struct PlayedRig {
     std::string word = "simulated";  ///< as it was given: "simulated", "emulated" or a rig's file
     Rig rig;
     Machine machine = Machine::simulated;
+    std::filesystem::path tapes{};  ///< the folder for tapes of what is exchanged with its USB devices; empty: none
 };
 
 /// A rig whose file names no devices is simulated.

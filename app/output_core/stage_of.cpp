@@ -99,7 +99,7 @@ Result<std::unique_ptr<devices::Stage>> lightCrafterStage(const PlayedRig& playe
     const RigDevices wired = *played.rig.devices;
     auto video = devices::displayOutput({wired.display, played.rig.projector});
     if (!video) return tl::unexpected(video.error());
-    const auto usb = std::make_shared<UsbPlaces>();
+    const auto usb = std::make_shared<UsbPlaces>(played.tapes);
     devices::LightCrafterRig rig;
     rig.openProjector = [usb, wired] { return openedProjector(*usb, wired.projectorAt); };
     rig.openLens = [usb, wired, emulated = played.machine == Machine::emulated](Dioptre rest) {
@@ -129,7 +129,7 @@ void endHanging(const std::string& sentence) {
 
 std::unique_ptr<devices::Stage> pluginStage(const PlayedRig& played, const std::filesystem::path& directory) {
     const RigDevices wired = *played.rig.devices;
-    const auto usb = std::make_shared<UsbPlaces>();
+    const auto usb = std::make_shared<UsbPlaces>(played.tapes);
     devices::PluginRig rig;
     rig.openProjector = [wired] {
         devices::HangingCall hanging;

@@ -19,6 +19,7 @@ std::vector<std::string> wordsFor(const CoreSetup& setup, const std::vector<std:
          {std::string("--runtime-dir"), setup.runtimeDirectory.string(), std::string("--rig"), setup.played.word,
           std::string("--simulated-lens"), std::string(devices::word(setup.lens))})
         words.push_back(word);
+    if (!setup.played.tapes.empty()) words.insert(words.end(), {"--tapes", setup.played.tapes.string()});
     return words;
 }
 

@@ -1,8 +1,15 @@
 #include "app/output_core/usb_place.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <ctime>
+#include <utility>
 #include <vector>
+
+#include "app/output_core/events.h"
+#include "devices/tape/usb_tape.h"
 
 namespace ilf::app {
 namespace {
@@ -12,6 +19,16 @@ std::string listed(const std::vector<std::string>& paths) {
     for (const auto& path : paths)
         text += (text.empty() ? "" : ", ") + path;
     return text;
+}
+
+/// "1-2-20261123-195501-4711.tape": port, time (UTC) and process.
+std::filesystem::path tapeName(const devices::UsbIdentity& device) {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char time[32];
+    std::strftime(time, sizeof time, "%Y%m%d-%H%M%S", &utc);
+    return device.path + "-" + time + "-" + std::to_string(getpid()) + ".tape";
 }
 
 }  // namespace
@@ -45,8 +62,24 @@ Result<std::unique_ptr<devices::UsbLink>> UsbPlaces::link(const UsbKind& kind, c
     for (const auto& one : *all)
         paths.push_back(one.path);
     return placeOf(kind.name, place, paths).and_then([&](const std::string& path) {
-        return bus_->link(path, interfaceNumber);
+        return bus_->link(path, interfaceNumber).map([&](std::unique_ptr<devices::UsbLink> link) {
+            return taped(std::move(link));
+        });
     });
+}
+
+/// One tape for all openings of a device. A show goes on without one that cannot be written.
+std::unique_ptr<devices::UsbLink> UsbPlaces::taped(std::unique_ptr<devices::UsbLink> link) {
+    if (tapes_.empty()) return link;
+    const auto [known, first] = recorders_.try_emplace(link->identity().path);
+    if (first) {
+        const auto file = tapes_ / tapeName(link->identity());
+        auto recorder = devices::TapeRecorder::into(file, devices::Clock::steady());
+        note(recorder ? event::kTape : event::kNoTape, recorder ? file.string() : recorder.error().what);
+        if (recorder) known->second = *std::move(recorder);
+    }
+    if (!known->second) return link;
+    return std::make_unique<devices::RecordingLink>(std::move(link), known->second, devices::Streamed::leftOut);
 }
 
 }  // namespace ilf::app

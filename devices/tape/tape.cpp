@@ -97,20 +97,29 @@ std::string hexOf(const std::vector<std::uint8_t>& bytes, std::size_t most) {
     return text;
 }
 
+std::string firstTapeLine() { return std::string(kFirstLine) + "\n"; }
+
+std::string tapeLine(const std::string& key, const std::string& value) {
+    return "about " + key + " " + oneLine(value) + "\n";
+}
+
+std::string tapeLine(const TapeEntry& entry) {
+    char time[32];
+    std::snprintf(time, sizeof time, "%.6f", entry.at.si());
+    std::string text = std::string(time) + " " + entry.what + (entry.where.empty() ? "" : " " + entry.where);
+    if (entry.failed)
+        text += std::string(" ") + kFailed + " : " + oneLine(entry.failure) + " |";
+    else
+        text += " :";
+    return text + (entry.bytes.empty() ? "" : " ") + hexOf(entry.bytes) + "\n";
+}
+
 std::string tapeText(const Tape& tape) {
-    std::string text = std::string(kFirstLine) + "\n";
+    std::string text = firstTapeLine();
     for (const auto& [key, value] : tape.about)
-        text += "about " + key + " " + oneLine(value) + "\n";
-    for (const TapeEntry& entry : tape.entries) {
-        char time[32];
-        std::snprintf(time, sizeof time, "%.6f", entry.at.si());
-        text += std::string(time) + " " + entry.what + (entry.where.empty() ? "" : " " + entry.where);
-        if (entry.failed)
-            text += std::string(" ") + kFailed + " : " + oneLine(entry.failure) + " |";
-        else
-            text += " :";
-        text += (entry.bytes.empty() ? "" : " ") + hexOf(entry.bytes) + "\n";
-    }
+        text += tapeLine(key, value);
+    for (const TapeEntry& entry : tape.entries)
+        text += tapeLine(entry);
     return text;
 }
 

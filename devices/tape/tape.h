@@ -18,7 +18,7 @@ namespace ilf::devices {
 //     about vendor 0451
 //     0.001250 out 01 : C011020005 02...
 //     0.002500 in 81 : C011...
-//     2.003000 in 81 failed : DLPC350 (0451:6401) at 1-2 ran out of time waiting for data.
+//     2.003000 in 81 failed : DLPC350 (0451:6401) at 1-2 did not answer in time ...
 //
 // Times are seconds since the tape began. The words before the colon say what was asked and how it went, what follows
 // is the bytes as hexadecimal digits (spaces are ignored) or the failure's sentence.
@@ -43,6 +43,10 @@ struct Tape {
 };
 
 std::string tapeText(const Tape& tape);
+/// Its lines one by one, for writing while it happens: the first; one about the device; one exchange.
+std::string firstTapeLine();
+std::string tapeLine(const std::string& key, const std::string& value);
+std::string tapeLine(const TapeEntry& entry);
 /// Errors (Fault::badFile) name the line.
 Result<Tape> parsedTape(const std::string& text);
 Result<void> saveTape(const Tape& tape, const std::filesystem::path& file);

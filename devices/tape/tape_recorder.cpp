@@ -8,9 +8,22 @@ constexpr std::size_t kEntryBytes = 128;  // what an entry takes besides its byt
 
 }  // namespace
 
+Result<std::shared_ptr<TapeRecorder>> TapeRecorder::into(const std::filesystem::path& file, Clock clock) {
+    auto recorder = std::make_shared<TapeRecorder>(std::move(clock));
+    recorder->file_.open(file, std::ios::binary);
+    recorder->write(firstTapeLine());
+    if (recorder->full_)
+        return fail(Fault::cannotWrite, "The tape " + file.string() +
+                                            " cannot be written. Choose a folder that you may write to, with room.");
+    return recorder;
+}
+
 void TapeRecorder::about(const std::string& key, const std::string& value) {
     const std::scoped_lock lock(mutex_);
+    for (const auto& [known, said] : tape_.about)
+        if (known == key) return;
     tape_.about.emplace_back(key, value);
+    if (file_.is_open()) write(tapeLine(key, value));
 }
 
 void TapeRecorder::succeeded(const std::string& what, const std::string& where, std::span<const std::uint8_t> bytes) {
@@ -25,10 +38,15 @@ void TapeRecorder::failed(const std::string& what, const std::string& where, std
 void TapeRecorder::note(TapeEntry entry) {
     const std::scoped_lock lock(mutex_);
     entry.at = std::chrono::duration<double>(clock_.now() - begun_).count() * 1.0_s;
+    if (file_.is_open()) return write(tapeLine(entry));
     full_ = full_ || bytes_ + entry.bytes.size() + kEntryBytes > kMostBytes;
     if (full_) return;
     bytes_ += entry.bytes.size() + kEntryBytes;
     tape_.entries.push_back(std::move(entry));
+}
+
+void TapeRecorder::write(const std::string& line) {
+    if (!full_) full_ = !(file_ << line << std::flush);
 }
 
 Tape TapeRecorder::tape() const {

@@ -44,8 +44,8 @@ private:
 
 }  // namespace
 
-RecordingLink::RecordingLink(std::unique_ptr<UsbLink> link, std::shared_ptr<TapeRecorder> recorder)
-    : link_(std::move(link)), recorder_(std::move(recorder)) {
+RecordingLink::RecordingLink(std::unique_ptr<UsbLink> link, std::shared_ptr<TapeRecorder> recorder, Streamed streamed)
+    : link_(std::move(link)), recorder_(std::move(recorder)), streamed_(streamed) {
     const UsbIdentity& identity = link_->identity();
     recorder_->about("link", "usb");
     recorder_->about("vendor", hex(identity.vendor, 4));
@@ -93,11 +93,12 @@ Result<void> RecordingLink::clearHalt(Endpoint endpoint) {
 Result<std::unique_ptr<UsbStream>> RecordingLink::streamOut(Endpoint to, std::size_t transferBytes, int inFlight,
                                                             std::function<void(std::span<std::uint8_t>)> fill) {
     const std::string where = addressOf(to);
-    auto noting = [fill = std::move(fill), recorder = recorder_, where](std::span<std::uint8_t> bytes) {
+    auto noting = [fill, recorder = recorder_, where](std::span<std::uint8_t> bytes) {
         fill(bytes);
         recorder->succeeded(kStreamOut, where, bytes);
     };
-    auto stream = link_->streamOut(to, transferBytes, inFlight, std::move(noting));
+    auto stream = streamed_ == Streamed::noted ? link_->streamOut(to, transferBytes, inFlight, std::move(noting))
+                                               : link_->streamOut(to, transferBytes, inFlight, std::move(fill));
     const std::string opened = where + " " + opening(transferBytes, inFlight);
     noteResult(*recorder_, "open-stream", opened, stream, {});
     return stream;
@@ -106,11 +107,12 @@ Result<std::unique_ptr<UsbStream>> RecordingLink::streamOut(Endpoint to, std::si
 Result<std::unique_ptr<UsbStream>> RecordingLink::streamIn(Endpoint from, std::size_t transferBytes, int inFlight,
                                                            std::function<void(std::span<const std::uint8_t>)> taken) {
     const std::string where = addressOf(from);
-    auto noting = [taken = std::move(taken), recorder = recorder_, where](std::span<const std::uint8_t> bytes) {
+    auto noting = [taken, recorder = recorder_, where](std::span<const std::uint8_t> bytes) {
         recorder->succeeded(kStreamIn, where, bytes);
         taken(bytes);
     };
-    auto stream = link_->streamIn(from, transferBytes, inFlight, std::move(noting));
+    auto stream = streamed_ == Streamed::noted ? link_->streamIn(from, transferBytes, inFlight, std::move(noting))
+                                               : link_->streamIn(from, transferBytes, inFlight, std::move(taken));
     const std::string opened = where + " " + opening(transferBytes, inFlight);
     noteResult(*recorder_, "open-stream", opened, stream, {});
     return stream;

@@ -9,11 +9,14 @@
 
 namespace ilf::devices {
 
-/// A link as before, and a tape of it. What streams carry is noted transfer by transfer as "stream-out" and
-/// "stream-in".
+/// Whether what streams carry is noted, transfer by transfer as "stream-out" and "stream-in": half a megabyte a second.
+enum class Streamed { noted, leftOut };
+
+/// A link as before, and a tape of it.
 class RecordingLink : public UsbLink {
 public:
-    RecordingLink(std::unique_ptr<UsbLink> link, std::shared_ptr<TapeRecorder> recorder);
+    RecordingLink(std::unique_ptr<UsbLink> link, std::shared_ptr<TapeRecorder> recorder,
+                  Streamed streamed = Streamed::noted);
 
     const UsbIdentity& identity() const override { return link_->identity(); }
     Result<Endpoint> interruptOut() const override { return link_->interruptOut(); }
@@ -34,6 +37,7 @@ public:
 private:
     std::unique_ptr<UsbLink> link_;
     std::shared_ptr<TapeRecorder> recorder_;
+    Streamed streamed_;
 };
 
 /// A device that is only a tape. Its streams run at once when they are opened: `fill` or `taken` is called for each

@@ -35,9 +35,14 @@ inline int kills() {
 /// On the ideal lens, which plays the powers of programs made by hand, unless told another.
 class OutputCore {
 public:
-    explicit OutputCore(std::string lens = "ideal", std::string rig = "simulated", bool leavesDevices = false)
+    explicit OutputCore(std::string lens = "ideal", std::string rig = "simulated", bool leavesDevices = false,
+                        bool makesTapes = false)
         : directory_(temporary()), arguments_{"--simulated-lens", std::move(lens), "--rig", std::move(rig)} {
         if (leavesDevices) arguments_.emplace_back("--leave-devices");
+        if (makesTapes) {
+            std::filesystem::create_directory(tapes());
+            arguments_.insert(arguments_.end(), {"--tapes", tapes().string()});
+        }
         setenv("XDG_STATE_HOME", (directory_ / "state").c_str(), 1);
         start();
     }
@@ -56,6 +61,7 @@ public:
         REQUIRE_MESSAGE(running.has_value(), (running ? "" : running.error().what));
     }
     const std::filesystem::path& directory() const { return directory_; }
+    std::filesystem::path tapes() const { return directory_ / "tapes"; }
     int supervisor() const { return devices::FileLock::holder(devices::supervisorLock(directory_)).value_or(0); }
     int player() const { return devices::FileLock::holder(devices::playerLock(directory_)).value_or(0); }
     int guard() const { return devices::FileLock::holder(app::guardLock(directory_)).value_or(0); }

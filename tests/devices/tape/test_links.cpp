@@ -159,6 +159,14 @@ TEST_CASE("tape: streams are noted transfer by transfer, and compared when playe
     REQUIRE(link.streamIn({0x86}, 3, 2, [&](std::span<const std::uint8_t> bytes) { came += bytes.size(); }));
     CHECK(came == 6);
 
+    // Left out, they are opened all the same, and nothing else is on the tape.
+    auto brief = std::make_shared<TapeRecorder>(time.clock());
+    RecordingLink without(std::make_unique<TwoTransfers>(), brief, Streamed::leftOut);
+    REQUIRE(without.streamOut({0x02}, 4, 2, [](std::span<std::uint8_t>) {}));
+    REQUIRE(without.streamIn({0x86}, 3, 2, [&](std::span<const std::uint8_t> bytes) { came += bytes.size(); }));
+    CHECK(came == 12);
+    CHECK(brief->tape().entries.size() == 2);
+
     const Tape tape = *parsedTape(tapeText(recorder->tape()));
     const auto same = *ReplayLink::of(tape);
     next = 0;

@@ -107,6 +107,34 @@ TEST_CASE("tape: files are saved, loaded, and named in errors") {
     CHECK(saveTape({}, "/nowhere/tape").error().fault == Fault::cannotWrite);
 }
 
+TEST_CASE("tape: a recorder with a file has every line there as soon as it is noted, and says where it cannot write") {
+    const auto file = std::filesystem::temp_directory_path() / "ilf-test-recorded.tape";
+    std::chrono::nanoseconds time{0};
+    const Clock clock{[&] { return time; }, [&](std::chrono::nanoseconds t) { time += t; }};
+    const auto recorder = *TapeRecorder::into(file, clock);
+    recorder->about("path", "1-2");
+    recorder->about("path", "1-9");  // opened once more
+    time += std::chrono::milliseconds(250);
+    recorder->succeeded("out", "01", std::vector<std::uint8_t>{0xC0, 0x11});
+    recorder->failed("in", "81", {}, {Fault::device, "Silence."});
+    const auto tape = loadTape(file);  // while it goes on
+    REQUIRE(tape);
+    CHECK(tape->about == std::vector<std::pair<std::string, std::string>>{{"path", "1-2"}});
+    REQUIRE(tape->entries.size() == 2);
+    CHECK(tape->entries[0].at.si() == doctest::Approx(0.25));
+    CHECK(tape->entries[0].bytes == std::vector<std::uint8_t>{0xC0, 0x11});
+    CHECK(tape->entries[1].failure == "Silence.");
+    CHECK(recorder->tape().entries.empty());
+    CHECK_FALSE(recorder->full());
+    std::filesystem::remove(file);
+    const auto refused = TapeRecorder::into("/nowhere/x.tape", clock);
+    CHECK(refused.error().fault == Fault::cannotWrite);
+    CHECK(refused.error().what.starts_with("The tape /nowhere/x.tape cannot be written."));
+    const auto disk = *TapeRecorder::into("/dev/null", clock);
+    CHECK_FALSE(disk->full());
+    CHECK_FALSE(TapeRecorder::into("/dev/full", clock));
+}
+
 TEST_CASE("tape: playing is strict, and an error names the line") {
     const std::vector<std::uint8_t> sent{0xC0, 0x11, 0x02}, other{0xC0, 0x11, 0x03};
     TapePlayer right(*parsedTape(kText));
