@@ -14,7 +14,7 @@ constexpr double kRoomForSelected = 700;
 
 }  // namespace
 
-Layout layout(Size window, double scale, const PanelSizes& sizes) {
+Layout layout(Size window, double scale, const PanelSizes& sizes, bool onePage) {
     // Whole pixels, so that no hairline of the ground shows between panels.
     const auto px = [&](double value) { return std::round(value * scale); };
     const double width = std::max(0, window.width), height = std::max(0, window.height);
@@ -30,16 +30,17 @@ Layout layout(Size window, double scale, const PanelSizes& sizes) {
     const double middle = at.status.y - at.top.bottom();
     const double mostCharts = std::max(0.0, middle - px(kHeader + 200));
     double charts = std::min(px(std::max(sizes.charts, kMinCharts)), mostCharts);
-    if (charts < px(kMinCharts * 0.75)) charts = 0;
+    if (onePage || charts < px(kMinCharts * 0.75)) charts = 0;
     const double chartsTop = at.status.y - charts;
 
     const double mostSide = std::max(0.0, width - px(kTools + kMinCanvas));
     const double side = std::min(px(std::max(sizes.side, kMinSide)), mostSide);
     const double sideLeft = width - side;
 
-    const double toolsWidth = std::min(px(kTools), width);
+    const double toolsWidth = onePage ? 0.0 : std::min(px(kTools), width);
     at.tools = {0, at.top.bottom(), toolsWidth, chartsTop - at.top.bottom()};
-    at.header = {toolsWidth, at.top.bottom(), std::max(0.0, sideLeft - toolsWidth), std::min(px(kHeader), middle)};
+    at.header = {toolsWidth, at.top.bottom(), std::max(0.0, sideLeft - toolsWidth),
+                 onePage ? 0.0 : std::min(px(kHeader), middle)};
     at.canvas = {toolsWidth, at.header.bottom(), at.header.w, std::max(0.0, chartsTop - at.header.bottom())};
 
     const double column = chartsTop - at.top.bottom();

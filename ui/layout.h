@@ -42,6 +42,7 @@ struct Layout {
 
 /// Rectangles (splitters aside) never overlap and lie inside the window. With `hidden`, only `top` (where SAFE LIGHT
 /// and TAKE stay) and `canvas` are left. Windows smaller than 1280x720 at scale 1 lose charts before anything else.
-Layout layout(Size window, double scale, const PanelSizes& sizes);
+/// `onePage`: `canvas` has the places of tools, tabs and charts as well, and the columns their height.
+Layout layout(Size window, double scale, const PanelSizes& sizes, bool onePage = false);
 
 }  // namespace ilf::ui

@@ -15,17 +15,21 @@ namespace {
 using Step = Register::Step;
 
 void boardRows(Panel& p, const Board& board) {
-    const auto corners = [&](const char* label, const char* id, int Board::* count, const char* help) {
+    const float width = ImGui::GetContentRegionAvail().x;
+    const auto corners = [&](const char* id, int Board::* count, const char* help) {
         const FieldSpec spec{Unit::number, 3.0, 100.0, 0.1, help};
-        const auto change = numberRow(p, label, id, board.*count, spec);
+        const auto change = numberField(p, id, board.*count, spec, (width - p.px(118 + 24)) / 2);
         if (!change || !change->commits) return;
         Board next = board;
         next.*count = static_cast<int>(std::lround(change->value));
         p.requests.push_back(SetBoard{next});
     };
-    corners("Corners across", "###boardColumns", &Board::columns,
-            "Inner corners of the printed chessboard in a row, where black squares meet: 9 for ten squares.");
-    corners("Corners down", "###boardRows", &Board::rows, "Rows of inner corners.");
+    rowLabel(p, "Corners", "Inner corners of the printed chessboard, where black squares meet: across by down.");
+    corners("###boardColumns", &Board::columns, "Inner corners in a row: 9 for ten squares.");
+    ImGui::SameLine(0, p.px(8));
+    text("\u00d7", colour::dim);
+    ImGui::SameLine(0, p.px(8));
+    corners("###boardRows", &Board::rows, "Rows of inner corners.");
     const FieldSpec spec{Unit::millimetre, 0.001, 1.0, 0.0,
                          "Side of one square, as measured on the print: all metres come from it."};
     const auto change = numberRow(p, "Square", "###boardSquare", board.square.si(), spec);
@@ -59,7 +63,7 @@ void pinholeRows(Panel& p, const char* label, const Pinhole& pinhole, const Pinh
     derivedRow(p, "  focal length",
                asText("%.1f", pinhole.fx) + " \u00b1 " + asText("%.1f", known.fx) + ", " + asText("%.1f", pinhole.fy) +
                    " \u00b1 " + asText("%.1f px", known.fy),
-               "Across and down, with one standard deviation.");
+               "Across and down, each with one standard deviation (1 sigma).");
     derivedRow(p, "  axis at", asText("%.1f", pinhole.cx) + ", " + asText("%.1f px", pinhole.cy));
     std::string terms;
     for (const double term : pinhole.distortion) {
@@ -78,18 +82,17 @@ void calibrationFound(Panel& p, const Calibrated& found) {
     derivedRow(p, "Apart", asText("%.1f mm", 1e3 * std::hypot(t[0], t[1], t[2])),
                "From the camera's pinhole to the projector's.");
     derivedRow(p, "Tilts up to", asText("%.0f\u00b0", found.widestTilt_deg), "Between two poses of the board.");
-    for (const std::string& note : found.notes)
-        wrapped(note, colour::warn, Font::small);
 }
 
 }  // namespace
 
 void calibrationPart(Panel& p, const RegisterView& r) {
     const RegisterPoses& c = r.calibration;
-    wrapped(
-        "Print a chessboard and hold it where things will be, tilted by 20 to 40 degrees, each time to another side. "
-        "Five poses tell lenses and places; scans measure depth then.",
-        colour::dim);
+    if (c.poses.empty()) {
+        wrapped("Print a chessboard and hold it where things will be, tilted by 20 to 40 degrees, each time to another "
+                "side. Five poses tell lenses and places; scans measure depth then.",
+                colour::dim);
+    }
     boardRows(p, c.board);
     ImGui::Dummy({1, p.px(2)});
     const std::string words = "Scan pose " + std::to_string(c.next) + "###registerPose";
@@ -104,6 +107,8 @@ void calibrationPart(Panel& p, const RegisterView& r) {
     if (registerButton(p, "Accept###calibrationAccept", "It goes into the rig; undo brings back what was."))
         ask(p, Step::accept);
     ImGui::NewLine();
+    for (const std::string& note : c.found->notes)
+        wrapped(note, colour::warn, Font::small);
     calibrationFound(p, *c.found);
 }
 
@@ -113,7 +118,7 @@ void depthFoundPart(Panel& p, const RegisterView& r) {
     if (!found.depth) return;
     const RegisterDepth& depth = *found.depth;
     text("Depth " + formatted(depth.nearest) + " \u2013 " + formatted(depth.farthest) + ", \u00b1 " +
-         formatted(depth.sigma));
+         formatted(depth.sigma.si(), Unit::millimetre) + " (1 sigma)");
     text(asText("%.0f %%", 100.0 * depth.share) + " of what was decoded; metres from the " + r.tape.scale, colour::dim,
          Font::small);
     ImGui::BeginDisabled(!p.state.registering.asScene);

@@ -16,13 +16,28 @@ namespace {
 using Step = Register::Step;
 using Phase = RegisterView::State;
 
+bool isBusy(const RegisterView& r) { return r.state == Phase::working || r.state == Phase::stopping; }
+
+/// Whose rig it is, and the way out.
+void titleRow(Panel& p, const RegisterView& r) {
+    ImGui::AlignTextToFramePadding();
+    text("REGISTERING A CAMERA", colour::dim, Font::small);
+    ImGui::SameLine();
+    text(p.document().rig.name, colour::text, Font::small);
+    if (isBusy(r) || r.state == Phase::accepted) return;
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - p.px(80));
+    if (ImGui::Button("Close###registerClose", {p.px(80), 0})) ask(p, Step::close);
+    tooltip("Steady white light; the rig stays as it is.");
+}
+
 /// Which camera, and what the emulated scene shall be.
 void cameraRow(Panel& p, const RegisterView& r) {
     rowLabel(p, "Camera", "Whose picture regions are painted on.");
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
-    const bool free = r.state != Phase::working && r.state != Phase::stopping;
+    const bool free = !isBusy(r);
     ImGui::BeginDisabled(!free);
-    if (ImGui::BeginCombo("###registerCamera", r.camera.c_str())) {
+    const std::string device = r.emulated ? r.camera.substr(0, r.camera.find(':')) : r.camera;
+    if (ImGui::BeginCombo("###registerCamera", device.c_str())) {
         for (const std::string& id : p.view.cameras) {
             if (ImGui::Selectable(id.c_str(), id == r.camera)) p.requests.push_back(OpenCamera{id});
         }
@@ -31,8 +46,9 @@ void cameraRow(Panel& p, const RegisterView& r) {
     ImGui::EndDisabled();
     if (!r.emulated) return;
     rowLabel(p, "Scene",
-             "The emulated scene in words, with commas between them: what goes wrong with it (hand, dark, "
-             "saturated, wrong-screen, frozen, delay=20, ambient=2000, after=60,bump=3), or board=1.");
+             "The emulated scene in words, with commas between them. What goes wrong with it: dark, saturated, "
+             "ambient=900, wrong-screen, frozen, delay=20, hand; turn=0.3,after=70. What it is: board=1, scene=FILE. "
+             "binning=2 makes its pictures small and quick.");
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
     ImGui::BeginDisabled(!free);
     ImGui::InputTextWithHint("###registerScene", "a desk, nothing wrong", &p.state.registerScene);
@@ -70,22 +86,12 @@ void findings(const RegisterView& r) {
         wrapped(remark, colour::dim, Font::small);
 }
 
-/// Colours of the quality map, each with its words: nobody has to tell them apart by hue alone.
-void legend(Panel& p, const RegisterView& r) {
-    if (r.shows == RegisterPicture::depth)
-        wrapped("Violet is far, yellow near; grey has no depth.", colour::dim, Font::small);
-    if (r.shows != RegisterPicture::quality) return;
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    for (const QualityColour& entry : r.legend) {
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float side = ImGui::GetTextLineHeight();
-        const ImU32 ink = rgb((static_cast<unsigned>(entry.rgb[0]) << 16U) |
-                              (static_cast<unsigned>(entry.rgb[1]) << 8U) | entry.rgb[2]);
-        draw.AddRectFilled(at, {at.x + side, at.y + side}, ink);
-        draw.AddRect(at, {at.x + side, at.y + side}, colour::line);
-        ImGui::SetCursorScreenPos({at.x + side + p.px(8), at.y});
-        wrapped(entry.words, colour::text, Font::small);
-    }
+/// 1 189 054
+std::string inThousands(int count) {
+    std::string words = std::to_string(count);
+    for (std::size_t at = words.size(); at > 3; at -= 3)
+        words.insert(at - 3, " ");
+    return words;
 }
 
 void found(Panel& p, const RegisterView& r) {
@@ -99,16 +105,18 @@ void found(Panel& p, const RegisterView& r) {
                 Font::small);
     else
         text("Residual " + px(f.rms_px) + " rms, " + px(f.worst_px) + " the worst");
-    text(std::to_string(f.points) + (f.way == RegisterWay::scan ? " pixels" : " points") + ", " + f.provenance,
-         colour::dim, Font::small);
+    text(inThousands(f.points) + (f.way == RegisterWay::scan ? " pixels, " : " points, ") + f.provenance, colour::dim,
+         Font::small);
     if (!f.note.empty()) wrapped(f.note, colour::warn);
     ImGui::Checkbox("Its picture becomes the scene###registerAsScene", &p.state.registering.asScene);
-    tooltip(
-        "The camera's picture under steady white light. Regions stay; where its size is another they are resampled.");
+    tooltip("The camera's picture under steady white light. Where its mode is another the regions go along with their "
+            "things.");
     if (f.way == RegisterWay::scan) depthFoundPart(p, r);
-    if (registerButton(p, "Accept###registerAccept", "The registration goes into the rig; undo brings back what was."))
+    if (registerButton(p, "Accept###registerAccept", "The registration goes into the rig; undo brings back what was.",
+                       !r.accepting))
         ask(p, Step::accept);
     ImGui::NewLine();
+    if (r.accepting) text("Taking the scene's picture under white light \u2026", colour::focus);
 }
 
 void working(Panel& p, const RegisterView& r) {
@@ -144,13 +152,13 @@ void pictures(Panel& p, const RegisterView& r) {
     if (!r.hasQuality) return;
     const float width = ImGui::GetContentRegionAvail().x;
     const int now = static_cast<int>(r.shows);
-    const auto which = r.hasDepth ? choice("###registerShows", {"Live", "Quality", "Depth"}, now, width)
+    const auto which = r.hasDepth ? choice("###registerShows", {"Live", "Quality", "Depth", "Its \u00b1"}, now, width)
                                   : choice("###registerShows", {"Live", "Quality"}, now, width);
     if (which) p.requests.push_back(ShowRegisterPicture{static_cast<RegisterPicture>(*which)});
 }
 
-void marksButton(Panel& p, const RegisterView& r, const char* show) {
-    if (registerButton(p, r.showsMarks ? "Hide###registerMarks" : show,
+void marksButton(Panel& p, const RegisterView& r, const char* show, const char* hide) {
+    if (registerButton(p, r.showsMarks ? hide : show,
                        r.showsMarks ? "Steady white light." : "On the projector; what plays stops."))
         ask(p, Step::marks);
 }
@@ -158,16 +166,17 @@ void marksButton(Panel& p, const RegisterView& r, const char* show) {
 void cornersPart(Panel& p, const RegisterView& r) {
     wrapped("Drag the four handles to where the camera sees the corners of the projector's frame. For flat scenes.",
             colour::dim);
-    marksButton(p, r, "Show the frame###registerMarks");
+    marksButton(p, r, "Show the frame###registerMarks", "Hide the frame###registerMarks");
     ImGui::NewLine();
 }
 
 void pairsPart(Panel& p, const RegisterView& r) {
     wrapped(!r.showsMarks   ? "The projector shows a numbered cross; click where the camera sees it."
-            : r.targetsLeft ? "Click where the camera sees cross " + std::to_string(r.pairs.size() + 1) + "."
+            : r.targetsLeft ? "Click where the camera sees cross " + std::to_string(r.pairs.size() + 1) +
+                                  "; where it does not see it, ask for another place."
                             : "Every place has its pair.",
             r.showsMarks ? colour::focus : colour::dim);
-    marksButton(p, r, "Show a cross###registerMarks");
+    marksButton(p, r, "Show a cross###registerMarks", "Hide the cross###registerMarks");
     if (r.showsMarks && r.targetsLeft &&
         registerButton(p, "Another place###registerAnother", "The camera does not see this one."))
         ask(p, Step::another);
@@ -204,62 +213,52 @@ void ways(Panel& p, const RegisterView& r) {
         p.requests.push_back(ChooseRegisterWay{static_cast<RegisterWay>(*way)});
 }
 
+void closeButton(Panel& p) {
+    if (registerButton(p, "Close###registerClose", "")) ask(p, Step::close);
+    ImGui::NewLine();
+}
+
 void acceptedPart(Panel& p, const RegisterView& r) {
     if (r.way != RegisterWay::calibration) {
         text("The rig is registered", colour::good, Font::strong);
-        return wrapped("Regions land where they are painted. The light is steady and white: TAKE plays.");
+        wrapped("Regions land where they are painted. The light is steady and white: TAKE plays.");
+        return closeButton(p);
     }
     text("Camera and projector are calibrated", colour::good, Font::strong);
     wrapped("A scan measures depth now: put the things back and scan them.");
     if (registerButton(p, "To the scan###registerToScan", ""))
         p.requests.push_back(ChooseRegisterWay{RegisterWay::scan});
+    closeButton(p);
 }
 
 void column(Panel& p, const RegisterView& r) {
-    text("REGISTERING A CAMERA", colour::dim, Font::small);
-    ImGui::SameLine();
-    text(p.document().rig.name, colour::text, Font::small);
+    titleRow(p, r);
     cameraRow(p, r);
     ImGui::Dummy({1, p.px(4)});
-    const bool busy = r.state == Phase::working || r.state == Phase::stopping;
-    if (r.state == Phase::accepted) {
-        acceptedPart(p, r);
-        if (registerButton(p, "Close###registerClose", "")) ask(p, Step::close);
-        ImGui::NewLine();
-        return;
-    }
+    const bool busy = isBusy(r);
     if (busy) {
         working(p, r);
     } else {
         ways(p, r);
         ImGui::Dummy({1, p.px(2)});
+        if (r.state == Phase::accepted) return acceptedPart(p, r);
         if (r.way == RegisterWay::scan) scanPart(p);
         if (r.way == RegisterWay::corners) cornersPart(p, r);
         if (r.way == RegisterWay::pairs) pairsPart(p, r);
         if (r.way == RegisterWay::board) boardPart(p);
         if (r.way == RegisterWay::calibration) calibrationPart(p, r);
+        pictures(p, r);
     }
-    if (!busy) pictures(p, r);
     if (!r.trouble.empty()) wrapped(r.trouble, colour::fault);
     if (!busy) found(p, r);
-    lightLine(r);
+    if (r.way != RegisterWay::calibration || (r.light && !r.light->go)) lightLine(r);
     if (r.way == RegisterWay::scan || r.way == RegisterWay::calibration) findings(r);
-    legend(p, r);
-    ImGui::Dummy({1, p.px(6)});
-    if (!busy && registerButton(p, "Close###registerClose", "Steady white light; the rig stays as it is."))
-        ask(p, Step::close);
-    ImGui::NewLine();
+    if (!registerLegendBelow(p.at, p.scale)) registerLegend(p, r, ImGui::GetContentRegionAvail().x, 1);
 }
 
 constexpr double kPadding = 8.0;
-
-/// Picture and charts together.
-Rect pageOf(const Layout& at) {
-    Rect page = at.canvas;
-    if (!at.header.empty()) page = {page.x, at.header.y, page.w, at.header.h + page.h};
-    if (!at.sweep.empty()) page.h = at.sweep.bottom() - page.y;
-    return page;
-}
+/// What a legend needs beneath the picture, and the height of a page that has it to spare.
+constexpr double kLegend = 92.0, kRoomForLegend = 560.0;
 
 double columnWidth(const Rect& page, double scale) { return std::clamp(0.36 * page.w, 240.0 * scale, 380.0 * scale); }
 
@@ -289,7 +288,7 @@ bool registerButton(Panel& p, const char* words, const char* help, bool enabled)
     ImGui::EndDisabled();
     tooltip(help);
     ImGui::SameLine();
-    return pressed;
+    return pressed && enabled;
 }
 
 void ask(Panel& p, Step step) { p.requests.push_back(Register{step, p.state.registering}); }
@@ -336,18 +335,18 @@ void registerCard(Panel& p) {
 }
 
 Rect registerPictureArea(const Layout& at, double scale) {
-    const Rect page = pageOf(at);
+    const Rect& page = at.canvas;
     const double left = page.x + columnWidth(page, scale) + 3 * kPadding * scale;
     return {left, page.y + kPadding * scale, std::max(1.0, page.right() - kPadding * scale - left),
-            std::max(1.0, page.h - 2 * kPadding * scale)};
+            std::max(1.0, page.h - (2 * kPadding + (registerLegendBelow(at, scale) ? kLegend : 0.0)) * scale)};
 }
+
+bool registerLegendBelow(const Layout& at, double scale) { return at.canvas.h >= kRoomForLegend * scale; }
 
 void registerPage(Panel& p) {
     const RegisterView& r = *p.view.registering;
     p.state.cursor.reset();
-    const Rect page = pageOf(p.at);
-    // Charts lie below all columns, the page below one of them.
-    ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, ImGui::GetIO().DisplaySize, colour::ground);
+    const Rect& page = p.at.canvas;
     beginPanel("###register", page, colour::ground, true, false);
     const bool typing = ImGui::GetIO().WantTextInput;
     ImGui::PushStyleColor(ImGuiCol_FrameBg, colour::raised);  // a field's usual ground cannot be told from the page's

@@ -7,7 +7,7 @@
 
 namespace ilf::ui {
 
-/// In place of the picture and the charts while `View::registering` is set; top bar and Rig stay beside it.
+/// In place of tools, picture and charts while `View::registering` is set; top bar and Rig stay beside it.
 void registerPage(Panel& p);
 /// Rig's card: what the rig's registration is worth, and the button that leads to the page.
 void registerCard(Panel& p);
@@ -19,6 +19,8 @@ void bumpBanner(Panel& p);
 void registerPicture(Panel& p, const RegisterView& r, const Rect& area);
 /// Where the page has its picture, as large as it can be.
 Rect registerPictureArea(const Layout& at, double scale);
+/// There is room beneath it for what its colours mean; else that stands in the column.
+bool registerLegendBelow(const Layout& at, double scale);
 /// How the camera's picture lies there.
 Viewport registerViewport(const RegisterView& r, const Rect& area);
 

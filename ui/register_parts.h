@@ -21,4 +21,7 @@ void calibrationPart(Panel& p, const RegisterView& r);
 /// The depth that a scan measured, and the tape that its metres can be checked with.
 void depthFoundPart(Panel& p, const RegisterView& r);
 
+/// What the colours of the picture mean, from the cursor on, in so many columns.
+void registerLegend(Panel& p, const RegisterView& r, float width, int columns);
+
 }  // namespace ilf::ui

@@ -99,14 +99,45 @@ void tape(Panel& p, const RegisterView& r, const Viewport& viewport, ImDrawList&
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) p.requests.push_back(PlaceTape{viewport.toPicture(pointer())});
 }
 
+/// What was measured under the pointer.
+void depthHere(Panel& p, const RegisterView& r, const Viewport& viewport, ImDrawList& draw) {
+    const RegisterDepth& depth = *r.found->depth;
+    const Point<CameraFrame> at = viewport.toPicture(pointer());
+    const int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
+    if (x < 0 || y < 0 || x >= depth.metres.width() || y >= depth.metres.height()) return;
+    const auto metres = static_cast<double>(depth.metres.at(x, y));
+    std::string words = "no depth";
+    if (metres > 0.0) {
+        words = formatted(metres, Unit::metre);
+        if (!depth.spread.empty())
+            words += " \u00b1 " + formatted(static_cast<double>(depth.spread.at(x, y)), Unit::millimetre);
+    }
+    label(draw, {static_cast<float>(pointer().x) + p.px(14), static_cast<float>(pointer().y) - p.px(8)}, words,
+          colour::text);
+}
+
+std::string whyEmpty(const Panel& p, const RegisterView& r) {
+    if (r.state != RegisterView::State::ready && r.state != RegisterView::State::accepted)
+        return r.emulated ? "The emulated camera works out where light goes: some seconds."
+                          : "The scan has the camera and waits for its first picture.";
+    if (!p.view.camera.open) return "No camera is open.";
+    return r.emulated ? "The emulated camera works out where light goes: some seconds."
+                      : "The camera has not given a picture yet.";
+}
+
 }  // namespace
 
-Viewport registerViewport(const RegisterView& r, const Rect& area) { return fitted(area, r.picture.size()); }
+Viewport registerViewport(const RegisterView& r, const Rect& area) {
+    // At the area's upper edge, so that a legend beneath it is near.
+    const Size size = r.picture.size();
+    const double height = size.width > 0 ? std::min(area.h, area.w * size.height / size.width) : area.h;
+    return fitted({area.x, area.y, area.w, height}, size);
+}
 
 void registerPicture(Panel& p, const RegisterView& r, const Rect& area) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     if (r.picture.empty()) {
-        const std::string words = p.view.camera.open ? "The camera has not given a picture yet." : "No camera is open.";
+        const std::string words = whyEmpty(p, r);
         const ImVec2 size = ImGui::CalcTextSize(words.c_str());
         draw.AddText(vec(area.x + (area.w - size.x) / 2, area.y + area.h / 2), colour::dim, words.c_str());
         return;
@@ -125,6 +156,12 @@ void registerPicture(Panel& p, const RegisterView& r, const Rect& area) {
     if (r.way == RegisterWay::pairs && settled) pairs(p, r, viewport, draw, hovered);
     if (r.way == RegisterWay::calibration && r.state != RegisterView::State::working) boardMarks(p, r, viewport, draw);
     if (ready && r.tape.placing) tape(p, r, viewport, draw, hovered);
+    const bool depth = r.shows == RegisterPicture::depth || r.shows == RegisterPicture::spread;
+    if (depth && hovered && r.found && r.found->depth) depthHere(p, r, viewport, draw);
+    if (registerLegendBelow(p.at, p.scale)) {
+        ImGui::SetCursorScreenPos({from.x, to.y + p.px(8)});
+        registerLegend(p, r, to.x - from.x, 2);
+    }
     if (r.shows != RegisterPicture::quality) return;
     for (const ScanFinding& finding : r.findings) {
         const auto& a = finding.area;

@@ -25,6 +25,7 @@ enum class RegisterPicture {
     live,
     quality,  ///< of a scan: what was decoded where, and why not
     depth,    ///< of a scan with a calibration: the nearer, the brighter
+    spread,   ///< of the same: how well each pixel's depth is known
 };
 
 /// What the operator says before light is shown.
@@ -47,6 +48,9 @@ struct RegisterDepth {
     Metre nearest, farthest;  ///< from the camera; all but one in a hundred lie between
     Metre sigma;              ///< median of one standard deviation
     double share = 0.0;       ///< of what was decoded
+    /// One standard deviation of all but one in a hundred.
+    Metre surest, vaguest;
+    Image<float> metres, spread;  ///< the picture's size; 0: no depth there
 };
 
 /// A registration that can be accepted.
@@ -117,6 +121,8 @@ struct RegisterView {
     RegisterPicture shows = RegisterPicture::live;
     bool hasQuality = false, hasDepth = false;  ///< there is one to be shown
     std::vector<QualityColour> legend;
+    std::vector<std::array<std::uint8_t, 3>>
+        ramp;  ///< a depth picture's colours, from its least figure to its greatest
 
     std::string doing;      ///< "Stripes down, 4 of 10"
     int done = 0, all = 1;  ///< pictures
@@ -126,6 +132,7 @@ struct RegisterView {
     double decodedShare = -1.0;  ///< of what is lit; below 0: nothing was scanned yet
     std::string trouble;         ///< the last thing that was refused, with what helps
     std::optional<RegisterFound> found;
+    bool accepting = false;   ///< waits for the scene's picture under steady light
     bool calibrated = false;  ///< the rig is: a scan measures depth
     RegisterPoses calibration;
     RegisterTape tape;

@@ -62,11 +62,12 @@ Requests studio(const View& view, State& state, const Input& input) {
     const Size window{static_cast<int>(display.x), static_cast<int>(display.y)};
     const double scale = view.scale > 0.0 ? view.scale : 1.0;
     reselect(state, view.document);
-    Panel p{view, state, input, requests, layout(window, scale, state.panels), scale};
+    const bool onePage = view.registering.has_value();
+    Panel p{view, state, input, requests, layout(window, scale, state.panels, onePage), scale};
     for (const std::string& path : input.dropped)
         requests.push_back(OpenFile{path, false});
     shortcutKeys(p);
-    p.at = layout(window, scale, state.panels);
+    p.at = layout(window, scale, state.panels, onePage);
 
     topBar(p);
     const bool page = view.measuring || view.registering;  // in the picture's place
@@ -77,7 +78,7 @@ Requests studio(const View& view, State& state, const Input& input) {
     else
         canvas(p);
     if (!state.panels.hidden) {
-        toolBar(p);
+        if (!onePage) toolBar(p);
         if (!page) canvasHeader(p);
         regionsPanel(p);
         selectedPanel(p);

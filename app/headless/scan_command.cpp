@@ -141,17 +141,18 @@ Result<ScanOutcome> scannedOnOwnCore(const ScanOptions& options, ScanOrder& orde
 }
 
 Result<void> reported(const ScanOptions& options, const ScanOrder& order, const ScanOutcome& outcome) {
-    ordered_json json = asJson(outcome, provenanceOf(order));
+    ordered_json said = asJson(outcome, provenanceOf(order));
     if (!options.quality.empty()) {
-        const auto map = outcome.black.empty() ? qualityMap(outcome.decoded) : lightMap(outcome.white, outcome.black);
+        const auto map = outcome.black.empty() ? qualityMap(outcome.decoded)
+                                               : lightMap(outcome.white, outcome.black, outcome.moved).rgb;
         if (const auto done = projects::writePng(options.quality, map); !done) return done;
     }
     const auto truth = againstTruth(order, outcome);
     if (truth)
-        json["against_truth"] = {
+        said["against_truth"] = {
             {"pixels", truth->pixels}, {"rms_px", truth->rms_px}, {"beyond_2px_share", truth->beyond}};
     if (options.json) {
-        std::cout << json.dump(2) << '\n';
+        std::cout << said.dump(2) << '\n';
     } else {
         for (const std::string& remark : outcome.captured.remarks)
             std::cout << remark << '\n';

@@ -44,6 +44,16 @@ Registration registrationOf(const ScanOrder& order, const ScanOutcome& outcome, 
     return found;
 }
 
+/// Of saved pictures one may say the order, or wait longer when taking them; a live scan has done both.
+void ofLivePictures(ScanDiagnosis& diagnosis) {
+    for (ScanFinding& finding : diagnosis.findings) {
+        if (finding.fault == ScanFault::otherOrder || finding.fault == ScanFault::previousFrame)
+            finding.what =
+                "The camera gives previous frames, now and then: pictures show other patterns than those that "
+                "were shown. Use a camera without a queue, or a machine that has less to do.";
+    }
+}
+
 /// Decodes and diagnoses.
 Result<void> evaluate(const ScanOrder& order, const devices::PatternCamera& taker,
                       const devices::CapturedScan& captured, ScanOutcome& outcome) {
@@ -56,6 +66,7 @@ Result<void> evaluate(const ScanOrder& order, const devices::PatternCamera& take
     if (!decoded) return tl::unexpected(decoded.error());
     outcome.decoded = *std::move(decoded);
     outcome.diagnosis = scanDiagnosis(captured.scan, outcome.decoded);
+    ofLivePictures(outcome.diagnosis);
     if (!outcome.diagnosis.usable()) outcome.trouble = outcome.diagnosis.findings.front().what;
     return {};
 }
@@ -123,6 +134,7 @@ Result<ScanOutcome> scannedPictures(const ScanOrder& order, const devices::ScanW
     outcome.trouble = captured.error().what;
     outcome.white = taker.white();
     outcome.black = taker.black();
+    outcome.moved = taker.moved();
     return outcome;
 }
 

@@ -37,6 +37,7 @@ struct ScanOutcome {
     Box<Registration> registration;         ///< empty: `trouble` says why
     std::string trouble;                    ///< one sentence; empty: registered and checked
     Image<std::uint8_t> white, black;       ///< where it ended before all pictures were taken; else empty
+    Image<std::uint8_t> moved;              ///< white again, where something had moved; else empty
     std::optional<Triangulated> depth;      ///< of a registration by a calibrated rig; none: `noDepth` says why
     std::string noDepth;                    ///< one sentence; empty: measured, or the rig is not calibrated
 };

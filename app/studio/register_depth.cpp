@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <span>
 #include <vector>
 
 namespace ilf::app {
 namespace {
+
+/// Of all figures, where a picture's colours end: what lies beyond is an edge or a speck.
+constexpr double kLeast = 0.01, kGreatest = 0.99;
 
 /// Of every seventh pixel: figures for an operator, not a measurement.
 std::vector<float> sampled(const Image<float>& image) {
@@ -50,38 +54,69 @@ Image<float> times(const Image<float>& image, float factor) {
     return Image<float>(image.size(), image.channels(), std::move(pixels));
 }
 
-}  // namespace
-
-ui::RegisterDepth figuresOf(const MeasuredDepth& depth, int decoded) {
-    const auto metres = sampled(depth.metres), sigma = sampled(depth.sigma);
-    const auto measured = std::ranges::count_if(depth.metres.pixels(), [](float z) { return z > 0.0F; });
-    ui::RegisterDepth figures;
-    figures.nearest = Metre::fromSi(static_cast<double>(quantile(metres, 0.01)));
-    figures.farthest = Metre::fromSi(static_cast<double>(quantile(metres, 0.99)));
-    figures.sigma = Metre::fromSi(static_cast<double>(quantile(sigma, 0.5)));
-    if (decoded > 0) figures.share = static_cast<double>(measured) / decoded;
-    return figures;
-}
-
-Image<std::uint8_t> depthPicture(const MeasuredDepth& depth) {
-    const auto sorted = sampled(depth.metres);
-    const float nearest = quantile(sorted, 0.01), farthest = std::max(nearest + 1e-3F, quantile(sorted, 0.99));
-    const Size size = depth.metres.size();
+/// Viridis, a value beyond `least` and `greatest` like the nearest of them.
+cv::Mat coloured(Size size, std::span<const float> values, float least, float greatest, bool leastIsBright) {
+    const float range = std::max(1e-9F, greatest - least);
     cv::Mat shades(size.height, size.width, CV_8UC1), colours;
-    std::ranges::transform(depth.metres.pixels(), shades.begin<std::uint8_t>(), [&](float z) {
-        const float share = (farthest - z) / (farthest - nearest);
-        return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(share, 0.0F, 1.0F)));
+    std::ranges::transform(values, shades.begin<std::uint8_t>(), [&](float value) {
+        const float share = std::clamp((value - least) / range, 0.0F, 1.0F);
+        return static_cast<std::uint8_t>(std::lround(255.0F * (leastIsBright ? 1.0F - share : share)));
     });
     cv::applyColorMap(shades, colours, cv::COLORMAP_VIRIDIS);
+    return colours;
+}
+
+/// RGB; grey where there is no depth. Empty without values.
+Image<std::uint8_t> painted(const MeasuredDepth& depth, const Image<float>& values, bool leastIsBright) {
+    if (values.empty()) return {};
+    const auto sorted = sampled(values);
+    const cv::Mat colours =
+        coloured(values.size(), values.pixels(), quantile(sorted, kLeast), quantile(sorted, kGreatest), leastIsBright);
     std::vector<std::uint8_t> rgb;
-    rgb.reserve(3 * depth.metres.pixels().size());
+    rgb.reserve(3 * values.pixels().size());
     auto pixel = colours.begin<cv::Vec3b>();
     for (const float z : depth.metres.pixels()) {
         const cv::Vec3b bgr = z > 0.0F ? *pixel : cv::Vec3b(45, 45, 45);
         rgb.insert(rgb.end(), {bgr[2], bgr[1], bgr[0]});
         ++pixel;
     }
-    return Image<std::uint8_t>(size, 3, std::move(rgb));
+    return Image<std::uint8_t>(values.size(), 3, std::move(rgb));
+}
+
+}  // namespace
+
+ui::RegisterDepth figuresOf(const MeasuredDepth& depth, int decoded) {
+    const auto metres = sampled(depth.metres), sigma = sampled(depth.sigma);
+    const auto measured = std::ranges::count_if(depth.metres.pixels(), [](float z) { return z > 0.0F; });
+    const auto at = [](const std::vector<float>& sorted, double share) {
+        return Metre::fromSi(static_cast<double>(quantile(sorted, share)));
+    };
+    ui::RegisterDepth figures;
+    figures.nearest = at(metres, kLeast);
+    figures.farthest = at(metres, kGreatest);
+    figures.sigma = at(sigma, 0.5);
+    figures.surest = at(sigma, kLeast);
+    figures.vaguest = at(sigma, kGreatest);
+    if (decoded > 0) figures.share = static_cast<double>(measured) / decoded;
+    figures.metres = depth.metres;
+    figures.spread = depth.sigma;
+    return figures;
+}
+
+Image<std::uint8_t> depthPicture(const MeasuredDepth& depth) { return painted(depth, depth.metres, true); }
+
+Image<std::uint8_t> spreadPicture(const MeasuredDepth& depth) { return painted(depth, depth.sigma, false); }
+
+std::vector<std::array<std::uint8_t, 3>> depthRamp(bool nearIsBright) {
+    constexpr int kColours = 32;
+    std::vector<float> values(kColours);
+    for (int i = 0; i < kColours; ++i)
+        values[static_cast<std::size_t>(i)] = static_cast<float>(i) / (kColours - 1);
+    const cv::Mat colours = coloured({kColours, 1}, values, 0.0F, 1.0F, nearIsBright);
+    std::vector<std::array<std::uint8_t, 3>> ramp;
+    for (auto bgr = colours.begin<cv::Vec3b>(); bgr != colours.end<cv::Vec3b>(); ++bgr)
+        ramp.push_back({(*bgr)[2], (*bgr)[1], (*bgr)[0]});
+    return ramp;
 }
 
 std::optional<Metre> lengthBetween(const MeasuredDepth& depth, Point<CameraFrame> from, Point<CameraFrame> to) {

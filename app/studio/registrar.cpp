@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/scan/light_map.h"
+#include "app/studio/register_depth.h"
 #include "app/studio/register_marks.h"
 #include "devices/emulated_scene/emulated_camera.h"
 
@@ -39,8 +40,7 @@ Registrar::Registrar(std::filesystem::path runtimeDirectory, std::function<void(
     : directory_(std::move(runtimeDirectory)), onNews_(std::move(onNews)), parts_(std::move(parts)) {}
 
 std::string Registrar::wantsCamera() const {
-    const bool taken = !view_ || view_->state == State::working || view_->state == State::stopping;
-    return taken ? std::string() : cameraAt(std::max(1, posesScanned_));
+    return !view_ || lent_ ? std::string() : cameraAt(std::max(1, posesScanned_));
 }
 
 void Registrar::open(const Rig& rig, Dioptre rest, const std::string& camera) {
@@ -50,7 +50,7 @@ void Registrar::open(const Rig& rig, Dioptre rest, const std::string& camera) {
     places_ = crossPlaces(rig.projector);
     place_ = 0;
     placed_ = closing_ = false;
-    live_ = quality_ = depthShown_ = white_ = {};
+    live_ = quality_ = depthShown_ = spreadShown_ = white_ = {};
     found_ = {};
     view_.emplace();
     view_->calibrated = static_cast<bool>(rig_.calibration);
@@ -78,7 +78,7 @@ void Registrar::chooseCamera(const std::string& id) {
     view_->trouble.clear();
     view_->pairs.clear();
     view_->worst = -1;
-    view_->picture = live_ = quality_ = depthShown_ = white_ = {};
+    view_->picture = live_ = quality_ = depthShown_ = spreadShown_ = white_ = {};
     view_->shows = ui::RegisterPicture::live;
     placed_ = false;
     poses_.clear();
@@ -91,7 +91,8 @@ void Registrar::chooseCamera(const std::string& id) {
 }
 
 void Registrar::choose(RegisterWay way) {
-    if (!view_ || scanner_ || view_->way == way) return;
+    const bool there = view_ && view_->way == way && view_->state != State::accepted;
+    if (!view_ || scanner_ || there) return;
     hideMarks();
     view_->way = way;
     view_->state = State::ready;
@@ -104,8 +105,9 @@ void Registrar::choose(RegisterWay way) {
 
 ScanOrder Registrar::order() const { return {rig_, rest_, directory_, view_->camera, {}, {}}; }
 
-void Registrar::begin(ScanWork work) {
+void Registrar::begin(ScanWork work, bool withCamera) {
     if (!view_ || scanner_ || view_->camera.empty()) return;
+    lent_ = withCamera;
     hideMarks();
     forgetLooks();
     forgetFound();
@@ -162,6 +164,7 @@ void Registrar::livePicture(const Image<std::uint8_t>& rgb) {
     if (!live_.empty() && live_.size() != rgb.size()) placed_ = false;
     live_ = rgb;
     ++steadyFrames_;
+    if (accepting_) accepting_->since = std::chrono::steady_clock::now();
     if (view_->shows == ui::RegisterPicture::live) view_->picture = live_;
     if (placed_) return;
     placed_ = true;
@@ -172,9 +175,14 @@ void Registrar::livePicture(const Image<std::uint8_t>& rgb) {
 void Registrar::showPicture(ui::RegisterPicture what) {
     using What = ui::RegisterPicture;
     if (!view_ || scanner_) return;
-    if ((what == What::quality && !view_->hasQuality) || (what == What::depth && !view_->hasDepth)) return;
+    const bool measured = what == What::depth || what == What::spread;
+    if ((what == What::quality && !view_->hasQuality) || (measured && !view_->hasDepth)) return;
     view_->shows = what;
-    view_->picture = what == What::quality ? quality_ : what == What::depth ? depthShown_ : live_;
+    if (measured) view_->ramp = depthRamp(what == What::depth);
+    view_->picture = what == What::quality  ? quality_
+                     : what == What::depth  ? depthShown_
+                     : what == What::spread ? spreadShown_
+                                            : live_;
 }
 
 void Registrar::lightOf(const AmbientCheck& ambient, Second exposure) {
@@ -193,8 +201,14 @@ void Registrar::looked(const ScanOutcome& outcome) {
     view_->findings = outcome.diagnosis.findings;
     const bool decoded = outcome.black.empty();
     view_->decodedShare = decoded ? outcome.diagnosis.decodedShare : -1.0;
-    quality_ = decoded ? qualityMap(outcome.decoded) : lightMap(outcome.white, outcome.black);
-    view_->legend = decoded ? qualityLegend() : lightLegend();
+    if (decoded) {
+        quality_ = qualityMap(outcome.decoded);
+        view_->legend = qualityLegend();
+    } else {
+        const LightMap seen = lightMap(outcome.white, outcome.black, outcome.moved);
+        quality_ = seen.rgb;
+        view_->legend = seen.legend;
+    }
     view_->hasQuality = true;
     showPicture(ui::RegisterPicture::quality);
 }
@@ -239,6 +253,7 @@ void Registrar::forgetFound() {
     depth_.reset();
     scaled_ = {};
     if (!view_) return;
+    view_->accepting = false;
     view_->found.reset();
     view_->hasDepth = false;
     view_->tape = {};
@@ -256,6 +271,7 @@ void Registrar::accept(const ui::RegisterSetup& setup) {
     hideMarks();
     steadyFrames_ = 0;
     accepting_ = {setup, std::chrono::steady_clock::now()};
+    view_->accepting = true;
 }
 
 std::optional<Registrar::ToWrite> Registrar::toWrite() {
@@ -273,6 +289,7 @@ std::optional<Registrar::ToWrite> Registrar::toWrite() {
         if (setup.asScene && setup.depth && depth_) all.depth = Box(*depth_);
     }
     accepting_.reset();
+    view_->accepting = false;
     return all;
 }
 
@@ -307,6 +324,7 @@ bool Registrar::collect() {
     auto result = scanner_->result();
     if (!result) return any;
     scanner_.reset();
+    lent_ = false;
     if (closing_) {
         view_.reset();
         return true;

@@ -97,7 +97,8 @@ private:
     ScanOrder order() const;
     /// The camera; an emulated one that nobody told about a board sees the `pose`-th while one is asked for.
     std::string cameraAt(int pose) const;
-    void begin(ScanWork work);
+    /// `withCamera`: the work opens the camera itself, so that nobody else may have it.
+    void begin(ScanWork work, bool withCamera = true);
     void take(const ScanOutcome& outcome);
     void take(const LightCheck& check);
     void take(const PairedRegistration& board);
@@ -124,13 +125,14 @@ private:
     Rig rig_;
     Dioptre rest_;
     bool closing_ = false;
+    bool lent_ = false;    ///< the camera, to what is at work
     bool placed_ = false;  ///< corners were put inside this camera's picture
-    Image<std::uint8_t> live_, quality_, depthShown_;
+    Image<std::uint8_t> live_, quality_, depthShown_, spreadShown_;
     Image<std::uint8_t> white_;  ///< of the scan that found something
     int steadyFrames_ = 0;       ///< live ones since the last light of ours
     struct Accepting {
         ui::RegisterSetup setup;
-        std::chrono::steady_clock::time_point since;
+        std::chrono::steady_clock::time_point since;  ///< when the last frame came, or it was asked for
     };
     std::optional<Accepting> accepting_;
     Box<Registration> found_;

@@ -22,10 +22,9 @@ std::string Registrar::cameraAt(int pose) const {
 
 void Registrar::scanPose() {
     if (!view_ || scanner_) return;
-    view_->calibration.next = ++posesScanned_ + 1;
     ScanOrder wanted = order();
-    wanted.camera = cameraAt(posesScanned_);
-    const std::string name = "Pose " + std::to_string(posesScanned_);
+    wanted.camera = cameraAt(posesScanned_ + 1);
+    const std::string name = "Pose " + std::to_string(posesScanned_ + 1);
     begin([run = parts_.pose, wanted, name, board = view_->calibration.board,
            poses = poses_](const auto& watch, const auto& stop) -> Result<ScanWorkDone> {
         auto outcome = run(wanted, board, poses, name, watch, stop);
@@ -47,9 +46,10 @@ void Registrar::removePose(std::size_t pose) {
     if (!view_ || scanner_ || pose >= poses_.size()) return;
     auto left = poses_;
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(pose));
-    begin([left, board = view_->calibration.board, provenance = provenanceOf(order())](const auto&, const auto&) {
-        return Result<ScanWorkDone>(calibratedBy(left, board, provenance));
-    });
+    begin([left, board = view_->calibration.board, provenance = provenanceOf(order())](
+              const auto&, const auto&) { return Result<ScanWorkDone>(calibratedBy(left, board, provenance)); },
+          false);
+    view_->doing = "Working the calibration out";
 }
 
 void Registrar::take(const PosesOutcome& outcome) {
@@ -58,6 +58,7 @@ void Registrar::take(const PosesOutcome& outcome) {
     poses_ = outcome.views;
     showPoses(outcome.calibrated, outcome.refused);
     if (newest) {
+        view_->calibration.next = ++posesScanned_ + 1;
         view_->calibration.corners = poses_.back().inCamera;
         showPicture(ui::RegisterPicture::live);
     }
@@ -87,6 +88,7 @@ void Registrar::showPoses(const Box<Calibrated>& found, std::string refused) {
 void Registrar::showDepth() {
     view_->found->depth = figuresOf(*depth_, found_->points);
     depthShown_ = depthPicture(*depth_);
+    spreadShown_ = spreadPicture(*depth_);
     view_->hasDepth = true;
     measureTape();
 }

@@ -102,6 +102,7 @@ private:
     void lookForBump();
     void takeBump();
     void followBump();
+    bool withoutStrayed(Rig& rig) const;
     void setScene(Scene scene);
     void take();
     void forgetTake();
@@ -128,6 +129,7 @@ private:
     bool registered_ = false;         ///< by the page: its camera stays open, to be watched for bumps
     std::optional<BumpReport> bump_;  ///< the camera was moved
     Box<Registration> bumpQuiet_;     ///< the operator knows that it no longer holds
+    Box<ProcamCalibration> strayed_;  ///< its camera was moved since, so that it measures no depth any more
     double bumpLookedAt_s_ = 0.0;
     TrackNews tracked_;              ///< the newest of the tracker
     std::uint64_t trackedFor_ = 0;   ///< serial of the document that it knows

@@ -34,8 +34,16 @@ void Studio::takeBump() {
     if (!report) return;
     if (report->bumped && !bump_)
         spdlog::warn("the camera was moved: what it sees lies {:.1f} px aside", report->moved_px);
+    strayed_ = report->bumped ? editor_.document().rig.calibration : Box<ProcamCalibration>();
     bump_ = report->bumped ? std::move(report) : std::nullopt;
     quietFrames_ = 0;
+}
+
+/// Where things are seen moved with the camera, where the projector sees them did not.
+bool Studio::withoutStrayed(Rig& rig) const {
+    if (!rig.calibration || !rig.calibration.same(strayed_)) return false;
+    rig.calibration = {};
+    return true;
 }
 
 void Studio::followBump() {
@@ -45,6 +53,7 @@ void Studio::followBump() {
     bump_.reset();
     Rig rig = document.rig;
     rig.registration = Box(afterBump(*rig.registration, motion));
+    const bool calibrate = withoutStrayed(rig);
     auto grabbed = camera_.grabbed();
     if (!grabbed) return say(grabbed.error().what, ui::Tone::warning);
     Scene scene = document.scene;
@@ -58,8 +67,12 @@ void Studio::followBump() {
             say(done.error().what, ui::Tone::warning);
     }
     editor_.commitGesture("Follow the camera");
-    if (document.scene.depth)
-        say("Depth does not move along: scan again where distances come from it.", ui::Tone::warning);
+    const std::string depth = calibrate ? " Depth does not: calibrate and scan again for it."
+                              : editor_.document().scene.depth
+                                  ? " Depth does not: scan again where distances come from it."
+                                  : "";
+    say("Picture, regions and map have moved along with the camera." + depth,
+        depth.empty() ? ui::Tone::note : ui::Tone::warning);
 }
 
 }  // namespace ilf::app

@@ -126,7 +126,11 @@ void Studio::registerCamera() {
     cameraBefore_ = camera_.live();
     registered_ = false;
     bump_.reset();
-    registrar_.open(document.rig, rest, usualCamera(document.rig, core_));
+    Rig rig = document.rig;
+    if (withoutStrayed(rig))
+        say("The camera was moved since it was calibrated: calibrate again before a scan can measure depth.",
+            ui::Tone::warning);
+    registrar_.open(rig, rest, usualCamera(rig, core_));
 }
 
 void Studio::writeRegistration(const Registrar::ToWrite& found) {
@@ -134,6 +138,7 @@ void Studio::writeRegistration(const Registrar::ToWrite& found) {
     if (found.registration && rig.projector != found.registration->projector)
         return say("The rig's projector was changed since: register the camera again.", ui::Tone::warning);
     if (found.registration) rig.registration = found.registration;
+    if (found.registration) withoutStrayed(rig);
     if (found.calibration) rig.calibration = found.calibration;
     using When = ui::EditRequest::When;
     const CameraMode scenes = pictureMode(editor_.document());

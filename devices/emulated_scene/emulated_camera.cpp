@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 #include <thread>
 
 #include "devices/emulated_scene/built_in.h"
@@ -53,6 +54,32 @@ SceneWish geometryOf(const SceneWish& wish, bool faulty) {
         alone.hand = wish.hand;
     }
     return alone;
+}
+
+/// The way of the light that was worked out last: a page that lends its camera to a scan, and takes it back, need not
+/// wait for the same rays three times. A scene's file may have changed since, so none of a file is kept.
+class LastTransport {
+public:
+    std::shared_ptr<const scene::LightTransport> of(const SceneWish& wish, Size raster) {
+        const std::lock_guard lock(mutex_);
+        return made_ && wish == wish_ && made_->stage().projector.size == raster ? made_ : nullptr;
+    }
+    void keep(const SceneWish& wish, std::shared_ptr<const scene::LightTransport> made) {
+        if (!wish.scene.empty()) return;
+        const std::lock_guard lock(mutex_);
+        wish_ = wish;
+        made_ = std::move(made);
+    }
+
+private:
+    std::mutex mutex_;
+    SceneWish wish_;
+    std::shared_ptr<const scene::LightTransport> made_;
+};
+
+LastTransport& lastTransport() {
+    static LastTransport last;
+    return last;
 }
 
 }  // namespace
@@ -118,10 +145,14 @@ void EmulatedCamera::lookForWishes() {
 Result<bool> EmulatedCamera::arrange(Size raster, bool faulty) {
     const SceneWish wanted = geometryOf(wish_, faulty);
     if (transport_ && arranged_ == wanted && transport_->stage().projector.size == raster) return true;
-    auto stage = wishedStage(wanted, raster, true);
-    if (!stage) return tl::unexpected(stage.error());
-    auto transport = std::make_shared<scene::LightTransport>(*std::move(stage), stop_);
+    auto transport = lastTransport().of(wanted, raster);
+    if (!transport) {
+        auto stage = wishedStage(wanted, raster, true);
+        if (!stage) return tl::unexpected(stage.error());
+        transport = std::make_shared<const scene::LightTransport>(*std::move(stage), stop_);
+    }
     if (stop_.stop_requested()) return false;
+    lastTransport().keep(wanted, transport);
     transport_ = std::move(transport);
     arranged_ = wanted;
     late_.clear();
@@ -168,6 +199,7 @@ Result<std::optional<Frame>> EmulatedCamera::read() {
     lookForWishes();
     const bool faulty = std::cmp_greater_equal(sinceWish_++, wish_.after);
     ShownLight shown = shown_.during(sensor_.exposure);
+    const Second till = steadyNow();  // no light that comes while the picture is worked out is in it
     const auto arranged = arrange(shown.raster, faulty);
     if (!arranged) return tl::unexpected(arranged.error());
     if (!*arranged) return std::nullopt;
@@ -175,9 +207,8 @@ Result<std::optional<Frame>> EmulatedCamera::read() {
     if (shown.there) throughLens(shown.light);
     transport_->shine(shown.light, wish_.ambientLux, lux_);
     if (wish_.marker >= 0) {
-        const Second exposed = steadyNow();
-        if (!began_) began_ = exposed;
-        const double t = (exposed - *began_).si();
+        if (!began_) began_ = till;
+        const double t = (till - *began_).si();
         tint_ = transport_->tint();
         putMarker(transport_->stage(), markerPathOf(wish_), t - sensor_.exposure.si(), t, shown.light, wish_.ambientLux,
                   lux_, tint_);
@@ -201,7 +232,7 @@ Result<std::optional<Frame>> EmulatedCamera::read() {
         late_.pop_front();
     now = steadyNow();
     due_ = std::max(due_ + kPeriod, now);
-    return Frame{late_.front(), now, ++number_, 0.0};
+    return Frame{late_.front(), till, ++number_, 0.0};
 }
 
 Result<void> EmulatedCamera::lockExposure(bool locked) {

@@ -65,6 +65,8 @@ public:
 
     const Image<std::uint8_t>& white() const { return white_; }
     const Image<std::uint8_t>& black() const { return black_; }
+    /// White again, once `unmoved` has refused; else empty.
+    const Image<std::uint8_t>& moved() const { return moved_; }
     const CapturedScan& facts() const { return facts_; }
     void tell(ScanProgress::Step step, int done, int all, std::string words) const;
 
@@ -76,6 +78,7 @@ private:
     Result<void> seesMarker();
     Result<void> somethingFollows();
     Error nothingFollows() const;
+    Error frozen() const;
     double changed(const Image<std::uint8_t>& picture) const;
 
     CameraSource& camera_;
@@ -83,7 +86,7 @@ private:
     ScanWish wish_;
     ScanWatch watch_;
     std::stop_token stop_;
-    Image<std::uint8_t> white_, black_, newest_, last_;
+    Image<std::uint8_t> white_, black_, newest_, last_, moved_;
     Second frameTime_;       ///< when newest_ came
     double noise_ = 0.0;     ///< mean difference of two frames of the same, codes; 0: not known yet
     double restless_ = 0.0;  ///< changed() of two frames of the same

@@ -1,5 +1,6 @@
 #include "devices/scan/pair_proof.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
@@ -32,6 +33,12 @@ PairProof pairProof(const Image<std::uint8_t>& white, const Image<std::uint8_t>&
     proof.same = static_cast<double>(same) / static_cast<double>(lit);
     proof.told = static_cast<double>(told) / static_cast<double>(lit);
     return proof;
+}
+
+bool clearlyLit(int white, int black) { return white - black >= kClear; }
+
+bool looksDifferent(int white, int black, int again) {
+    return clearlyLit(white, black) && std::abs(white - again) > std::max(8, (white - black) / 8);
 }
 
 double meanDifference(const Image<std::uint8_t>& a, const Image<std::uint8_t>& b) {

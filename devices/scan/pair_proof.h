@@ -20,6 +20,11 @@ struct PairProof {
 PairProof pairProof(const Image<std::uint8_t>& white, const Image<std::uint8_t>& black,
                     const Image<std::uint8_t>& picture, const Image<std::uint8_t>& inverse);
 
+/// Codes of one pixel: white is told from black well above noise.
+bool clearlyLit(int white, int black);
+/// And it is not as it was, beyond noise, now that white is shown `again`.
+bool looksDifferent(int white, int black, int again);
+
 /// Mean difference of two grey pictures of one size, codes.
 double meanDifference(const Image<std::uint8_t>& a, const Image<std::uint8_t>& b);
 

@@ -47,10 +47,14 @@ int brightest(const Image<std::uint8_t>& grey) {
     return 0;
 }
 
+/// The share of pixels that are brighter under white, less those darker, which only noise makes: noise alone gives
+/// none.
 double shareLit(const Image<std::uint8_t>& white, const Image<std::uint8_t>& black) {
-    std::size_t lit = 0;
-    for (std::size_t i = 0; i < white.pixels().size(); ++i)
-        lit += white.pixels()[i] >= black.pixels()[i] + 8 ? 1 : 0;
+    std::ptrdiff_t lit = 0;
+    for (std::size_t i = 0; i < white.pixels().size(); ++i) {
+        const int w = white.pixels()[i], b = black.pixels()[i];
+        lit += (w >= b + 8 ? 1 : 0) - (b >= w + 8 ? 1 : 0);
+    }
     return static_cast<double>(lit) / static_cast<double>(std::max<std::size_t>(1, white.pixels().size()));
 }
 
@@ -98,11 +102,7 @@ Result<Image<std::uint8_t>> PatternCamera::taken(const Pattern& pattern, int lat
         if (!picture) return picture;
         // Where there is no light at all there is nothing that could differ.
         const bool repeated = (*picture == last_ || *picture == before) && brightest(*picture) > kNothing;
-        if (repeated && frameTime_ - fresh > kSilence) {
-            return fail(Fault::device, camera_.name() +
-                                           " is frozen: it gives the same picture again and again, whatever "
-                                           "is shown. Plug it in again, then scan again.");
-        }
+        if (repeated && frameTime_ - fresh > kSilence) return tl::unexpected(frozen());
         if (frameTime_ < fresh || repeated || passed++ < late) continue;
         const bool settled =
             noise_ == 0.0 || (!before.empty() && meanDifference(*picture, before) < kNoiseFactor * noise_ + kNoiseRoom);
@@ -115,6 +115,11 @@ Result<Image<std::uint8_t>> PatternCamera::taken(const Pattern& pattern, int lat
                         "other light off, and scan again.");
         }
     }
+}
+
+Error PatternCamera::frozen() const {
+    return {Fault::device, camera_.name() + " is frozen: it gives the same picture again and again, whatever is "
+                                            "shown. Plug it in again, then scan again."};
 }
 
 Result<void> PatternCamera::begin() {
@@ -181,13 +186,21 @@ Result<void> PatternCamera::findLateness() {
     seen = frame();
     if (!seen) return tl::unexpected(seen.error());
     const double whiteNoise = meanDifference(white_, *seen);
-    // From first light on, one frame after the other, until they have long shown the same.
+    // From the first frame on whose whole exposure may have been of black, one after the other, until they have long
+    // shown the same. `taken` trusts frames a sweep later only; counted from there, a camera seemed to be less late
+    // than it is when a frame fell in between.
+    const auto lit = show_.show(patternPicture(kBlack, show_.projector()));
+    if (!lit) return tl::unexpected(lit.error());
+    const Second whole = *lit + (facts_.exposure > 0.0_s ? facts_.exposure : kUnknownExposure);
     std::vector<Image<std::uint8_t>> frames;
-    seen = taken(kBlack, 0);
-    for (int i = 0; i < wish_.mostLate + 2; ++i) {
-        if (!seen) return tl::unexpected(seen.error());
-        frames.push_back(*seen);
+    for (int trusted = 0; trusted < wish_.mostLate + 2;) {
         seen = frame();
+        if (!seen) return tl::unexpected(seen.error());
+        const bool repeated = frames.empty() && *seen == last_ && brightest(*seen) > kNothing;
+        if (repeated && frameTime_ - whole > kSilence) return tl::unexpected(frozen());
+        if (frameTime_ < whole || repeated) continue;
+        frames.push_back(*seen);
+        trusted += frameTime_ >= whole + show_.sweep() ? 1 : 0;
     }
     black_ = last_ = frames.back();
     if (const auto follows = somethingFollows(); !follows) return follows;
@@ -232,10 +245,10 @@ Result<void> PatternCamera::somethingFollows() {
 double PatternCamera::changed(const Image<std::uint8_t>& picture) const {
     std::size_t lit = 0, other = 0;
     for (std::size_t i = 0; i < white_.pixels().size(); ++i) {
-        const int before = white_.pixels()[i], contrast = before - black_.pixels()[i];
-        if (contrast < 16) continue;
+        const int white = white_.pixels()[i], black = black_.pixels()[i];
+        if (!clearlyLit(white, black)) continue;
         ++lit;
-        other += std::abs(before - picture.pixels()[i]) > std::max(8, contrast / 8) ? 1 : 0;
+        other += looksDifferent(white, black, picture.pixels()[i]) ? 1 : 0;
     }
     return lit == 0 ? 0.0 : static_cast<double>(other) / static_cast<double>(lit);
 }
@@ -264,7 +277,13 @@ Result<PatternCamera::Pair> PatternCamera::pair(const Pattern& pattern) {
         ++facts_.repeated;
     }
     if (const auto still = unmoved(); !still) return tl::unexpected(still.error());
-    if (pattern.kind == Pattern::Kind::marker) return tl::unexpected(nothingFollows());
+    if (pattern.kind == Pattern::Kind::marker) {
+        // Noise can look like light that is enough: then no figure of it holds.
+        const Error why = nothingFollows();
+        facts_.ambient.go = false;
+        facts_.ambient.what = why.what;
+        return tl::unexpected(why);
+    }
     return fail(Fault::device, "The camera gives previous frames again: a pattern and its inverse are the same on " +
                                    asText("%.0f %%", 100.0 * proof.same) + " of what is lit, even " +
                                    std::to_string(std::max(wish_.mostLate, facts_.late + 1)) +
@@ -282,6 +301,7 @@ Result<void> PatternCamera::unmoved() {
         if (const auto later = frame(); !later) return tl::unexpected(later.error());
         if (changed(newest_) <= restless_ + kMoved) return fail(Fault::device, kPreviousFrames);
     }
+    moved_ = *again;
     return fail(Fault::device, "Something moved while it was scanned: " + asText("%.1f %%", 100.0 * other) +
                                    " of what is lit looks different under the same white light than before. Keep "
                                    "camera, projector and things still, hands out of the view, and scan again.");

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <latch>
 #include <thread>
 
 #include "app/headless/own_core.h"
@@ -127,9 +128,11 @@ TEST_CASE("registrar: a scan that finds a map can be accepted with the picture u
     const TemporaryDirectory folder;
     RegisterParts parts;
     bool anyway = false;
+    std::latch looked(1);  // it ends no sooner than it was looked at while it scanned
     parts.scan = [&](const ScanOrder& order, const devices::ScanWatch& watch, const std::stop_token&) {
         anyway = order.wish.anyway;
         watch({devices::ScanProgress::Step::patterns, 3, 44, "Stripes down, 2 of 9", {}});
+        looked.wait();
         return Result<ScanOutcome>(someOutcome(order));
     };
     Desk d(folder / "run", parts);
@@ -139,6 +142,7 @@ TEST_CASE("registrar: a scan that finds a map can be accepted with the picture u
     d.press("###registerScan");
     CHECK(d.registrar.shows());
     CHECK(d.registrar.wantsCamera().empty());
+    looked.count_down();
     REQUIRE(d.settled());
     CHECK(anyway);
     CHECK_FALSE(d.registrar.shows());
@@ -150,6 +154,7 @@ TEST_CASE("registrar: a scan that finds a map can be accepted with the picture u
     CHECK_FALSE(d.registrar.toWrite());
     d.live = [] { return grey(kCamera, 180); };
     d.press("###registerAccept");
+    CHECK(d.view().accepting);
     std::optional<Registrar::ToWrite> both;
     REQUIRE(d.until([&] { return (both = d.registrar.toWrite()).has_value(); }));
     CHECK(both->registration->points == 70000);
@@ -161,9 +166,34 @@ TEST_CASE("registrar: a scan that finds a map can be accepted with the picture u
     CHECK(d.view().state == Phase::accepted);
     CHECK(d.view().shows == ui::RegisterPicture::live);
     CHECK_FALSE(d.view().found);
+    CHECK_FALSE(d.view().accepting);
+    d.press({"###registerWay", "Scan"});  // once more
+    CHECK(d.view().state == Phase::ready);
     d.press("###registerClose");
     CHECK_FALSE(d.registrar.view());
     CHECK(d.registrar.wantsCamera().empty());
+}
+
+TEST_CASE("registrar: a scene's picture that comes slowly is waited for, in colour") {
+    const TemporaryDirectory folder;
+    RegisterParts parts;
+    parts.scan = [](const ScanOrder& order, const auto&, const auto&) {
+        return Result<ScanOutcome>(someOutcome(order));
+    };
+    Desk d(folder / "run", parts);
+    d.registrar.open(d.rig, {}, "emulated");
+    d.press("###registerScan");
+    REQUIRE(d.settled());
+    d.live = {};
+    d.press("###registerAccept");
+    for (int i = 0; i < 9; ++i)
+        d.registrar.livePicture(grey(kCamera, 140));
+    CHECK_FALSE(d.registrar.toWrite());
+    d.registrar.livePicture(grey(kCamera, 150));
+    const auto written = d.registrar.toWrite();
+    REQUIRE(written);
+    CHECK(written->picture.channels() == 3);
+    CHECK(written->picture.at(3, 3, 0) == 150);
 }
 
 TEST_CASE("registrar: a bad scan shows its findings and quality, and there is nothing to accept") {
@@ -316,6 +346,7 @@ TEST_CASE("registrar: one pose is refused with the reason, more can be accepted,
     CHECK(d.view().calibrated);
     d.registrar.choose(RegisterWay::calibration);
     d.registrar.removePose(1);
+    CHECK_FALSE(d.registrar.wantsCamera().empty());  // nothing is scanned for it
     REQUIRE(d.settled());
     CHECK(d.view().calibration.poses.size() == 1);
     CHECK_FALSE(d.view().calibration.found);
@@ -343,6 +374,11 @@ TEST_CASE("registrar: depth that a scan measured goes along with the picture, an
     REQUIRE(d.view().found->depth);
     CHECK(d.view().found->depth->nearest.si() == doctest::Approx(1.0));
     CHECK(d.view().found->depth->sigma.si() == doctest::Approx(0.002));
+    CHECK(static_cast<double>(d.view().found->depth->spread.at(7, 7)) == doctest::Approx(0.002));
+    d.press({"###registerShows", "Its \u00b1"});
+    CHECK(d.view().shows == ui::RegisterPicture::spread);
+    CHECK(d.view().picture.size() == kCamera);
+    CHECK_FALSE(d.view().ramp.empty());
     d.press("###registerTape");
     d.registrar.placeTape({110, 120});
     CHECK(d.view().tape.length == 0.0_m);

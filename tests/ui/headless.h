@@ -115,6 +115,7 @@ public:
             view.computed.planError = plan_.error().what;
         view.computed.forCurrent = true;
         if (dress) dress(view);
+        onePage_ = view.registering.has_value();
         asked = gui.frame([&] { return studio(view, state, input); });
         input = {};
         for (const Request& request : asked)
@@ -197,7 +198,7 @@ public:
     }
     Layout areas() const {
         const ImVec2 size = ImGui::GetIO().DisplaySize;
-        return layout({static_cast<int>(size.x), static_cast<int>(size.y)}, scale_, state.panels);
+        return layout({static_cast<int>(size.x), static_cast<int>(size.y)}, scale_, state.panels, onePage_);
     }
 
 private:
@@ -221,6 +222,7 @@ private:
     }
 
     double scale_ = 1.0, time_s_ = 0.0;
+    bool onePage_ = false;  ///< of the last frame
     Document planFor_;
     Result<Plan> plan_ = fail(Fault::notFound, "nothing planned");
 };

@@ -38,7 +38,7 @@ TEST_CASE("layout: panels lie inside the window and never overlap") {
         const double scale = *rc::gen::inRange(10, 30) / 10.0;
         PanelSizes sizes{*rc::gen::inRange(0, 2000) * 1.0, *rc::gen::inRange(0, 2000) * 1.0,
                          *rc::gen::inRange(0, 100) / 100.0, *rc::gen::arbitrary<bool>()};
-        const auto panels = panelsOf(layout(window, scale, sizes));
+        const auto panels = panelsOf(layout(window, scale, sizes, *rc::gen::arbitrary<bool>()));
         for (std::size_t i = 0; i < panels.size(); ++i) {
             RC_ASSERT(inside(panels[i], window));
             for (std::size_t j = 0; j < i; ++j)
@@ -74,6 +74,15 @@ TEST_CASE("layout: twice the scale in twice the window is twice every rectangle"
         CHECK(b[i].x == doctest::Approx(2 * a[i].x).epsilon(0.01));
         CHECK(b[i].h == doctest::Approx(2 * a[i].h).epsilon(0.01));
     }
+}
+
+TEST_CASE("layout: one page has the places of tools, tabs and charts, the columns beside it go down to the status") {
+    const Layout usual = layout({1280, 800}, 1.0, {}), page = layout({1280, 800}, 1.0, {}, true);
+    CHECK(page.canvas == Rect{0, usual.top.bottom(), usual.header.right(), usual.status.y - usual.top.bottom()});
+    for (const Rect& gone : {page.tools, page.header, page.sweep, page.blurRange, page.seam, page.chartSplitter})
+        CHECK(gone.empty());
+    CHECK(page.pages.bottom() == page.status.y);
+    CHECK(page.top == usual.top);
 }
 
 TEST_CASE("layout: Tab leaves the picture, TAKE and SAFE LIGHT") {

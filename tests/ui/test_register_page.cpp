@@ -64,7 +64,9 @@ RegisterFound someFound() {
     found.worst_px = 0.4;
     found.points = 700000;
     found.provenance = "emulated";
-    found.depth = RegisterDepth{0.9_m, 1.2_m, 2.0_mm, 0.97};
+    found.depth = RegisterDepth{0.9_m, 1.2_m, 2.0_mm, 0.97, 1.0_mm, 8.0_mm, {}, {}};
+    found.depth->metres = Image<float>({640, 480}, 1, std::vector<float>(640 * 480, 1.0F));
+    found.depth->spread = Image<float>({640, 480}, 1, std::vector<float>(640 * 480, 0.002F));
     return found;
 }
 
@@ -216,6 +218,13 @@ TEST_CASE("register page: findings, legend, light and refusals find room in ever
             const Requests asked = shown.desk.press(column().c_str(), {"###registerShows", "Depth"});
             REQUIRE(first<ShowRegisterPicture>(asked) != nullptr);
             CHECK(first<ShowRegisterPicture>(asked)->what == RegisterPicture::depth);
+            const Requests spread = shown.desk.press(column().c_str(), {"###registerShows", "Its \u00b1"});
+            REQUIRE(first<ShowRegisterPicture>(spread) != nullptr);
+            CHECK(first<ShowRegisterPicture>(spread)->what == RegisterPicture::spread);
+            shown.r.shows = RegisterPicture::spread;
+            shown.r.ramp = {{0, 0, 0}, {255, 255, 0}};
+            shown.desk.move(shown.at(320, 240));
+            shown.desk.settle();
         }
     }
 }
@@ -244,6 +253,36 @@ TEST_CASE(
     const Requests next = shown.press("###registerToScan");
     REQUIRE(first<ChooseRegisterWay>(next) != nullptr);
     CHECK(first<ChooseRegisterWay>(next)->way == RegisterWay::scan);
+}
+
+TEST_CASE("register page: nothing of what it covers reacts, and no border of a panel lies on it") {
+    RegisterView view = someView();
+    view.picture = {};
+    Shown shown(view);
+    const Layout usual = layout({1280, 800}, 1.0, {});
+    const PanelSizes before = shown.desk.state.panels;
+    const double x = usual.canvas.x + usual.canvas.w / 2, y = usual.sweep.y;
+    shown.desk.drag({{x, y}, {x, y - 40}, {x, y - 80}});
+    CHECK(shown.desk.state.panels == before);
+    const Tool tool = shown.desk.state.tool;
+    for (double down = usual.tools.y; down < usual.tools.bottom(); down += 20)
+        shown.desk.click({usual.tools.w / 2, down});
+    CHECK(shown.desk.state.tool == tool);
+}
+
+TEST_CASE("register page: of what was registered one may go on to any way") {
+    Shown shown(someView(RegisterWay::scan, Phase::accepted));
+    const Requests asked = shown.desk.press(column().c_str(), {"###registerWay", "Calibrate"});
+    REQUIRE(first<ChooseRegisterWay>(asked) != nullptr);
+    CHECK(first<ChooseRegisterWay>(asked)->way == RegisterWay::calibration);
+}
+
+TEST_CASE("register page: while the scene's picture is waited for nothing is accepted again") {
+    RegisterView view = someView();
+    view.found = someFound();
+    view.accepting = true;
+    Shown shown(view);
+    CHECK(shown.press("###registerAccept").empty());
 }
 
 TEST_CASE("register page: clicks are a tape's ends while one is laid, and what it says scales the depth") {
