@@ -103,9 +103,15 @@ void RegionTracker::learn(Followed& one, const Document& document, const Region&
         const auto covered = region.mask.empty() ? PixelRect<CameraFrame>{} : region.mask.coveredPixels();
         const Quad from = turnedSquare(middleOf(region.mask), std::max(8.0, halfSize(cornersOf(covered))), 0.0);
         if (from == one.from) return;
-        one.from = one.now = from;
-        one.speed = {};
-        one.track = {};
+        // A stroke moves the middle of what is painted: the region stays where it is until the next pose.
+        const auto along = [&](const Quad& seen) {
+            const auto motion = motionBetween(one.from, seen);
+            return motion ? moved(from, *motion) : from;
+        };
+        one.now = along(one.now);
+        for (CornerTrack::Seen& seen : one.track.seen)
+            seen.corners = along(seen.corners);
+        one.from = from;
         return;
     }
     if (!document.scene.picture) {

@@ -200,6 +200,26 @@ TEST_CASE("a turned pose turns the region about its middle, clockwise in the pic
     CHECK(at.y == doctest::Approx(190));
 }
 
+TEST_CASE("a stroke on a region that poses move leaves it where it is until the next pose") {
+    Follow follow;
+    follow.target = StreamTarget{"/pose/1"};
+    Document document = following(follow, Look::focus, pictureWith(squareAt(300, 150)));
+    Run run(document);
+    for (int i = 0; i < 3; ++i) {
+        run.now += kFrame;
+        run.tracker.hear("/pose/1", {420.0 / kSize.width, 220.0 / kSize.height, 0.0, 1.0}, run.now, run.now);
+    }
+    const Point<CameraFrame> somewhere{350, 180};
+    const auto before = motionAt(run.move(), 0.0_s).motion(somewhere);
+    Region region = *document.regions[0];
+    region.mask = united(region.mask, rasterised(Rectangle{{320, 60}, {360, 120}}, region.mask.size()));
+    document.regions[0] = Box(region);
+    run.tracker.follow(document);
+    const auto after = motionAt(run.move(), 0.0_s).motion(somewhere);
+    CHECK(after.x == doctest::Approx(before.x));
+    CHECK(after.y == doctest::Approx(before.y));
+}
+
 TEST_CASE("what cannot be followed says why, and stays where it was painted") {
     Follow other = marker();
     other.target = MarkerTarget{"APRILTAG_36h11", 9};
