@@ -52,7 +52,7 @@ cv::Mat interpolated(const Mask& mask, Size raster, const Plane& map) {
     return to;
 }
 
-/// Shares of pixels that the shape truly covers, counted over 12 x 12 points.
+/// Shares of pixels that the shape truly covers, counted over 12 x 12 points where its border comes near.
 std::vector<double> trueShares(Size raster, const Plane& map) {
     const auto back = map.inverted();
     const double cx = 0.5 * (kBorder.a.x + kBorder.b.x), rx = 0.5 * (kBorder.b.x - kBorder.a.x);
@@ -61,12 +61,21 @@ std::vector<double> trueShares(Size raster, const Plane& map) {
     std::vector<double> shares;
     for (int y = 0; y < raster.height; ++y) {
         for (int x = 0; x < raster.width; ++x) {
-            int inside = 0;
-            for (int i = 0; i < kPoints * kPoints; ++i) {
-                const auto c =
-                    back(Point<ProjectorFrame>{x + (i % kPoints + 0.5) / kPoints, y + (i / kPoints + 0.5) / kPoints});
-                inside += std::hypot((c.x - cx) / rx, (c.y - cy) / ry) <= 1.0 ? 1 : 0;
+            const auto isInside = [&](double px, double py) {
+                const auto c = back(Point<ProjectorFrame>{px, py});
+                return std::hypot((c.x - cx) / rx, (c.y - cy) / ry) <= 1.0 ? 1 : 0;
+            };
+            // The shape is much larger than a pixel: what its neighbours' middles do not part, it does not cut.
+            int around = 0;
+            for (int i = 0; i < 9; ++i)
+                around += isInside(x + 0.5 + (i % 3 - 1), y + 0.5 + (i / 3 - 1));
+            if (around == 0 || around == 9) {
+                shares.push_back(around == 0 ? 0.0 : 1.0);
+                continue;
             }
+            int inside = 0;
+            for (int i = 0; i < kPoints * kPoints; ++i)
+                inside += isInside(x + (i % kPoints + 0.5) / kPoints, y + (i / kPoints + 0.5) / kPoints);
             shares.push_back(inside / static_cast<double>(kPoints * kPoints));
         }
     }

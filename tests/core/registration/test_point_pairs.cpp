@@ -186,5 +186,5 @@ TEST_CASE("projected chessboard: its corners register a picture on a chequered s
     }
     const auto nothing = registeredByBoard(photo(inverse, ways[0]), photo(inverse, ways[0]), kProjector);
     REQUIRE_FALSE(nothing);
-    CHECK(says(nothing.error().what, "no chessboard of 9 x 6"));
+    CHECK(says(nothing.error().what, "chessboard that the projector shows is not seen whole"));
 }
