@@ -47,6 +47,12 @@ std::string refusalOf(const std::function<void(Json&)>& change) {
     return opened.error().what;
 }
 
+/// As it was before scenes kept their camera's mode.
+Document withoutMode(Document document) {
+    document.scene.camera = {};
+    return document;
+}
+
 }  // namespace
 
 TEST_CASE("project: what is saved opens as the same document, as a folder and zipped") {
@@ -139,13 +145,13 @@ TEST_CASE("project: what is wrong with measured depth, the wearer's place or wha
 TEST_CASE("project: a project of version 2 is loaded forever") {
     const auto opened = openProject(fs::path(ILF_SOURCE_DIR) / "tests/projects/data/version-2.ilfd");
     REQUIRE_MESSAGE(opened, opened.error().what);
-    CHECK(opened->document == measuredDocument());
+    CHECK(opened->document == withoutMode(measuredDocument()));
 }
 
 TEST_CASE("project: a project of version 1 is loaded forever") {
     const auto opened = openProject(fs::path(ILF_SOURCE_DIR) / "tests/projects/data/version-1.ilfd");
     REQUIRE_MESSAGE(opened, opened.error().what);
-    CHECK(opened->document == fullDocument());
+    CHECK(opened->document == withoutMode(fullDocument()));
 }
 
 TEST_CASE("project: keys and files that are not known stay, at every level") {
