@@ -28,7 +28,7 @@ fi
 build="$root/build/release"
 export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1
 {
-    cmake -S "$root" -B "$build" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF
+    cmake -S "$root" --preset release --log-level=WARNING -DBUILD_TESTING=OFF
     cmake --build "$build" --parallel "$(nproc)"
 } >&2
 studio="$build/bin/illuminatedfocus"
