@@ -191,8 +191,9 @@ Result<Harmonics> decode(const flatbuffers::Vector<double>* parts) {
     if (parts == nullptr) return f;
     if (parts->size() % 2 != 0 || parts->size() > 2 * kMaxHarmonics)
         return fail(Fault::badFile, "a message holds a lens wave of " + std::to_string(parts->size()) + " numbers.");
-    for (flatbuffers::uoffset_t i = 0; i < parts->size(); i += 2)
-        f.c.emplace_back(parts->Get(i), parts->Get(i + 1));
+    const std::vector<double> values = numbers(parts);
+    for (std::size_t i = 0; i < values.size(); i += 2)
+        f.c.emplace_back(values[i], values[i + 1]);
     return f;
 }
 
@@ -281,7 +282,8 @@ Result<Body> decode(const wire::ProgramUpdate& m) {
     update.projectorDelay = Second::fromSi(m.projector_delay_s());
     update.projector = {m.width(), m.height()};
     update.images = m.images();
-    update.imageOfSlot.assign(m.image_of_slot()->begin(), m.image_of_slot()->end());
+    const std::vector<std::int16_t> images = numbers(m.image_of_slot());
+    update.imageOfSlot.assign(images.begin(), images.end());
     update.tiles = *std::move(tiles);
     return Body(std::move(update));
 }
@@ -355,7 +357,7 @@ Result<Body> decode(const wire::DeviceState& m) {
     s.slotRate = Hertz::fromSi(m.slot_rate_Hz());
     s.hashShown = m.hash_shown();
     s.hashLoaded = m.hash_loaded();
-    if (m.slot_hashes() != nullptr) s.slotHashes.assign(m.slot_hashes()->begin(), m.slot_hashes()->end());
+    s.slotHashes = numbers(m.slot_hashes());
     s.swaps = m.swaps();
     s.swapped_ns = m.swapped_ns();
     s.lens = *lens;

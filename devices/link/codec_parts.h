@@ -1,7 +1,10 @@
 // What the files of the codec share: texts and enumerations out of bytes. Private to the codec.
 #pragma once
 
+#include <bit>
+#include <cstring>
 #include <string>
+#include <vector>
 
 #include "devices/link/codec.h"
 #include "messages_generated.h"
@@ -17,6 +20,17 @@ template <class To, class From>
 Result<To> enumeration(From value, From last, const char* what) {
     if (value > last) return fail(Fault::badFile, std::string("a message holds an unknown ") + what + ".");
     return static_cast<To>(value);
+}
+
+/// The numbers of a message. The verifier sees that they are all there, not that they lie as their type must, so they
+/// are copied byte by byte; null is none.
+template <class T>
+std::vector<T> numbers(const flatbuffers::Vector<T>* from) {
+    static_assert(std::endian::native == std::endian::little, "messages are little-endian");
+    if (from == nullptr || from->size() == 0) return {};
+    std::vector<T> out(from->size());
+    std::memcpy(out.data(), from->Data(), out.size() * sizeof(T));
+    return out;
 }
 
 inline std::string text(const flatbuffers::String* s) { return s != nullptr ? s->str() : std::string(); }

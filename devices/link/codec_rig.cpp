@@ -13,9 +13,7 @@ std::vector<double> plain(const std::vector<Dioptre>& powers) {
 
 std::vector<Dioptre> powers(const flatbuffers::Vector<double>* plain) {
     std::vector<Dioptre> out;
-    if (plain == nullptr) return out;
-    out.reserve(plain->size());
-    for (const double power : *plain)
+    for (const double power : numbers(plain))
         out.push_back(Dioptre::fromSi(power));
     return out;
 }
