@@ -1,18 +1,17 @@
 // The far border by a ring reader's staircase (paper, section 5.3).
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "app/evaluate/evaluate.h"
 #include "app/evaluate/observers.h"
 #include "app/evaluate/traced_camera.h"
 #include "core/base/parallel.h"
+#include "core/optics/eye.h"
 
 namespace ilf::app {
 namespace {
 
-constexpr double kArcmin = std::numbers::pi / 10800.0;
 constexpr Metre kLensToPupil = 20.0_mm;
 constexpr Size kReceptors{32, 32};
 /// Receptors lie half an arcmin apart in the fovea (about 2.4 um on the retina).

@@ -58,24 +58,24 @@ Result<FourObjects> condition(const char* words, bool onlyBBlurred, const Evalua
 
 /// Pixels for a millimetre of the surface at half a metre.
 constexpr double kDotsPerMm = 4.0;
-constexpr Metre kWall = 500.0_mm;
+constexpr Metre kSurfaceAt = 500.0_mm;
 /// From the optical centre to the border, as in the reference tables.
-constexpr Metre kMiddle = 50.0_mm;
+constexpr Metre kBorderFromCentre = 50.0_mm;
 
 /// The paper's captures: a camera with the pupil of an eye behind one lens. It blurs the side it is told to, with light
 /// at exactly `power`.
 Result<Document> seamScene(const Picture& picture, bool blurredInside, Dioptre power, Blending blending) {
     const Size size = picture.size();
     const double middle = 0.5 * size.width;
-    Document document = scene(picture, 0.0, {}, Look::focus, kWall);
+    Document document = scene(picture, 0.0, {}, Look::focus, kSurfaceAt);
     // The optical centre lies to the left, so the left half is the inner one.
-    document.regions.push_back(Box<Region>(
-        strip("blurred", size, blurredInside ? 0.0 : middle, blurredInside ? middle : size.width, Look::blur, kWall)));
-    document.wearer.camera = CameraObserver{16.0_mm, 4.0, kWall, 8.4_um};
-    document.wearer.axes = {LensAxis{-kMiddle, 0.0_m}, LensAxis{-kMiddle, 0.0_m}};
-    document.scene.scale.focalPixels = 1e3 * kDotsPerMm * (kWall + document.wearer.lensToPupil).si();
+    document.regions.push_back(Box<Region>(strip("blurred", size, blurredInside ? 0.0 : middle,
+                                                 blurredInside ? middle : size.width, Look::blur, kSurfaceAt)));
+    document.wearer.camera = CameraObserver{16.0_mm, 4.0, kSurfaceAt, 8.4_um};
+    document.wearer.axes = {LensAxis{-kBorderFromCentre, 0.0_m}, LensAxis{-kBorderFromCentre, 0.0_m}};
+    document.scene.scale.focalPixels = 1e3 * kDotsPerMm * (kSurfaceAt + document.wearer.lensToPupil).si();
     document.seam.blending = blending;
-    const auto least = minimumBlurPower(eyeOptics(document.wearer), kWall);
+    const auto least = minimumBlurPower(eyeOptics(document.wearer), kSurfaceAt);
     if (!least) return tl::unexpected(least.error());
     document.alpha = power - *least;
     return document;

@@ -15,6 +15,7 @@
 #include "app/plots/draw.h"
 #include "app/plots/optics_charts.h"
 #include "core/base/as_text.h"
+#include "core/optics/eye.h"
 #include "core/optics/kernel.h"
 
 namespace ilf::app {
@@ -192,7 +193,7 @@ std::optional<Table> table(const std::string& name) {
             const OpticsCase in = referenceEye(d / 1e3, power);
             const OpticsValues v = evaluate(in, OpticsPath::precise);
             if (blur) {
-                const double arcmin = in.pupil * std::abs(v[Optic::E]) / (std::acos(-1.0) / 10800.0);
+                const double arcmin = in.pupil * std::abs(v[Optic::E]) / kArcmin;
                 out.rows.push_back({d, power, v[Optic::E], 1e6 * v[Optic::Dr], arcmin});
             } else {
                 out.rows.push_back({d, power, v[Optic::s], v[Optic::sMinus1], 50.0 * v[Optic::sMinus1]});

@@ -9,9 +9,9 @@ namespace ilf {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-Complex turn(double x) { return std::polar(1.0, kTurn * (x - std::floor(x))); }
+Complex turn(double x) { return std::polar(1.0, kTwoPi * (x - std::floor(x))); }
 
 /// Horner in e^(2 pi i x): Re of the sum of coefficient(k) z^k.
 template <class Coefficient>
@@ -23,7 +23,7 @@ double sum(const Harmonics& f, double x, Coefficient coefficient) {
     return value.real();
 }
 
-Complex slopeFactor(std::size_t k) { return {0.0, kTurn * static_cast<double>(k)}; }
+Complex slopeFactor(std::size_t k) { return {0.0, kTwoPi * static_cast<double>(k)}; }
 
 double curvatureAt(const Harmonics& f, double x) {
     return sum(f, x, [&](std::size_t k) { return f.c[k] * slopeFactor(k) * slopeFactor(k); });
@@ -114,7 +114,7 @@ Harmonics lessConstant(Harmonics f, double constant) {
 Extremes extremes(const Harmonics& f) {
     if (f.c.size() <= 1) return {f.mean(), f.mean(), 0.0, 0.0};
     if (f.c.size() == 2) {  // a sine: nothing to search
-        const double swing = std::abs(f.c[1]), phase = std::arg(f.c[1]) / kTurn;
+        const double swing = std::abs(f.c[1]), phase = std::arg(f.c[1]) / kTwoPi;
         const auto wrapped = [](double x) { return x - std::floor(x); };
         return {f.mean() - swing, f.mean() + swing, wrapped(0.5 - phase), wrapped(-phase)};
     }
@@ -136,7 +136,7 @@ Harmonics harmonicsOf(std::span<const double> samples, std::size_t count) {
     f.c.resize(count + 1);
     const double n = static_cast<double>(samples.size());
     for (std::size_t k = 0; k <= count; ++k) {
-        const Complex step = std::polar(1.0, -kTurn * static_cast<double>(k) / n);
+        const Complex step = std::polar(1.0, -kTwoPi * static_cast<double>(k) / n);
         Complex z = 1.0, total = 0.0;
         for (std::size_t i = 0; i < samples.size(); ++i) {
             // A product of thousands of turns drifts; every 64th is taken afresh.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "core/optics/accommodation.h"
 #include "core/optics/forms.h"
@@ -36,7 +35,7 @@ Passage passage(const EyeOptics& eye, Metre distance, Dioptre lens) {
 Metre confusionOf(const CircleOfConfusion& confusion, Metre retina) {
     switch (confusion.preset) {
     case CircleOfConfusion::Preset::oneArcmin:
-        return retina * (std::numbers::pi / 10800.0);
+        return retina * kArcmin;
     case CircleOfConfusion::Preset::depthOfField:
         return 20.0_um;
     // b = 1 / (0.65 * pupil in mm): times pupil and retina the pupil cancels (Smith 1991).

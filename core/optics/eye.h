@@ -1,11 +1,16 @@
 // The optics of one eye (or camera) behind one tunable lens: blur, borders, magnification.
 #pragma once
 
+#include <numbers>
+
 #include "core/base/quantity.h"
 #include "core/base/result.h"
 #include "core/document/wearer.h"
 
 namespace ilf {
+
+/// A minute of arc, radians.
+inline constexpr double kArcmin = std::numbers::pi / 10800.0;
 
 /// A reduced eye behind a thin tunable lens. Symbols of the paper (Ueda et al. 2020, section 3) in brackets.
 /// The eye is held as (retina, ametropia, accommodation) and never as r and P_e apart: 1 - r P_e would cancel.

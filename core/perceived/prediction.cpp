@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <numeric>
 
 #include "core/perceived/prediction_subject.h"
@@ -18,7 +17,6 @@ using prediction::World;
 
 /// Between the assumed value and the end of its range this many points are looked at.
 constexpr int kPoints = 4;
-constexpr double kArcmin = std::numbers::pi / 10800.0;
 constexpr Metre kNearest = 1.0_mm;
 
 double squared(double v) { return v * v; }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "core/plan/notes.h"
 #include "core/plan/words.h"
@@ -11,7 +10,6 @@
 namespace ilf {
 namespace {
 
-constexpr double kMinuteOfArc = std::numbers::pi / 10800.0;
 /// Letters are recognised when they are five times as high as the finest detail resolved (Snellen's optotypes).
 constexpr double kDetailsOfLetter = 5.0;
 
@@ -67,7 +65,7 @@ std::string whatIsAttended(const Plan& plan) {
 /// Height of the smallest letters that may be read by who looks straight at it, the pupil as small as it may be.
 std::string smallestLetters(const RegionPrediction& seen) {
     const Predicted& acuity = seen.snellenLooked;
-    const double detail = std::max(1.0, (acuity.value - acuity.error()) / 20.0) * kMinuteOfArc;
+    const double detail = std::max(1.0, (acuity.value - acuity.error()) / 20.0) * kArcmin;
     return inWords(std::max(1.0, std::round(1e3 * kDetailsOfLetter * detail * seen.distance.si())), 0) + " mm";
 }
 
@@ -106,7 +104,7 @@ std::string brightness(const RegionPrediction& seen) { return " It has " + perce
 Statement focused(const Plan& plan, const RegionPrediction& seen) {
     const EyeOptics& eye = plan.input.eye;
     const Metre sharp = seen.camera ? eye.confusion : std::max(eye.confusion, kDepthOfField);
-    const double acceptable = sharp / eye.retina / kMinuteOfArc;
+    const double acceptable = sharp / eye.retina / kArcmin;
     Statement said;
     if (seen.blur_arcmin.value + seen.blur_arcmin.error() > acceptable) {
         said = {Saying::soft, true,

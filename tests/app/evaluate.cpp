@@ -13,6 +13,7 @@
 #include "app/evaluate/report.h"
 #include "app/exit_code.h"
 #include "app/headless/evaluate_command.h"
+#include "core/optics/eye.h"
 #include "tests/projects/folder.h"
 
 using namespace ilf;
@@ -32,8 +33,6 @@ Image<float> discs(int size, double radius) {
     }
     return {{size, size}, 1, std::move(pixels)};
 }
-
-constexpr double kArcmin = 3.14159265358979 / 10800.0;
 
 /// A ring of `gap` arcmin one metre away, its picture and whether it is read through a lens at `power`.
 double shareRead(double gap, double power, double noise) {
